@@ -1,0 +1,37 @@
+// The thread pool of a node: tasks taken on demand by a free thread (paper, Section 3.2). The
+// calling thread is worker 0 and works too. Floor 2 (machine).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace hrad {
+
+class ThreadTeam {
+ public:
+  // Starts threads-1 threads. binding: for each worker the list of operating-system processor
+  // numbers it may run on; empty: no binding (worker 0, the caller's thread, is never bound).
+  explicit ThreadTeam(int threads, std::vector<std::vector<int>> binding = {});
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  int size() const;
+
+  // Runs body(task, worker) for every task 0 <= task < count, in ascending order of being taken,
+  // each by one worker 0 <= worker < size(); returns when all are done. between(done) is called now
+  // and then on the calling thread with the number of finished tasks; when it returns false, no
+  // further task is started and for_each returns false (tasks under way are finished). When bodies
+  // throw, no further task is started and the exception of the lowest task that threw is thrown
+  // here. Not reentrant.
+  bool for_each(int64_t count, const std::function<void(int64_t task, int worker)>& body,
+                const std::function<bool(int64_t done)>& between = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace hrad
