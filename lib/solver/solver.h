@@ -1,0 +1,105 @@
+// The solver: scene, parameters and solution of one radiosity problem, and the order of its stages
+// (paper, Fig. 1). Every entry of the C API is one method here. Floor 8 (solver).
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/log.h"
+#include "base/vec3.h"
+#include "scene/scene.h"
+#include "solver/params.h"
+#include "solver/stats.h"
+
+namespace hrad {
+
+struct Progress {
+  const char* stage = "";
+  int64_t iteration = 0;
+  double fraction = 0, seconds = 0, seconds_left = -1;
+};
+
+// One leaf, as queries and exports see it.
+struct LeafView {
+  int64_t patch = 0, face = 0;
+  int32_t side = 0;  // 0 front, 1 back
+  Triangle corners;  // anticlockwise seen from the leaf's side
+  double area = 0;
+  double exposed = 1;  // share of the area that is not sealed
+};
+
+enum class Quantity : int32_t { radiosity = 0, irradiance = 1, emission = 2, net_flux = 3 };
+
+class Solver {
+ public:
+  Solver();
+  ~Solver();
+
+  // parameters
+  void set_int(const std::string& name, int64_t value);
+  void set_double(const std::string& name, double value);
+  void set_text(const std::string& name, const std::string& value);
+  const Params& params() const { return params_; }
+  Log& log() { return log_; }
+  void set_progress(std::function<bool(const Progress&)> sink) { progress_ = std::move(sink); }
+
+  // load
+  int32_t add_material(Material material);
+  void add_patches(int64_t n_vertices, const double* xyz, int64_t n_triangles,
+                   const int64_t* vertex, const int32_t* material);
+  void load_scene(const std::string& path);
+  void make_scene(const std::string& name);
+  void set_emission(int64_t first, int64_t count, const double* values);
+  void set_reflectance(int64_t first, int64_t count, const double* values);
+  const Scene& scene() const { return scene_; }
+  std::vector<std::string> diagnostics() const;
+
+  // partition and machine
+  void partition();
+  int32_t patch_owner(int64_t patch) const;
+  std::string describe_machine() const;
+
+  // solve
+  Status solve();
+  void request_stop() { stop_requested_.store(true, std::memory_order_relaxed); }
+  Stats stats() const;
+  uint64_t state_hash() const;
+
+  // query; STATE before a solve
+  bool solved() const;
+  void query_patches(Quantity quantity, int32_t side, int64_t first, int64_t count,
+                     double* out) const;
+  void query_points(Quantity quantity, int32_t side, int64_t count, const int64_t* patch,
+                    const double* uv, double* out) const;
+  void query_sensors(int64_t count, const double* xyz, const double* normal, double* irradiance,
+                     double* standard_error) const;
+  int64_t leaf_count() const;
+  LeafView leaf(int64_t index) const;                    // in key order
+  void leaf_values(int64_t index, Quantity quantity, double* out) const;  // means, bands values
+  // Linear reconstruction of radiosity at the three corners of a leaf: 3*bands values.
+  void leaf_corner_radiosity(int64_t index, double* out) const;
+  void power_balance(double* emitted, double* absorbed, double* absorbed_back,
+                     double* escaped) const;
+
+  // files
+  void export_file(const std::string& path) const;
+
+ private:
+  struct Solution;
+  void require_solved() const;
+  void require_open() const;  // the scene may still grow
+
+  Params params_;
+  Log log_;
+  std::function<bool(const Progress&)> progress_;
+  Scene scene_;
+  mutable Stats stats_;
+  std::atomic<bool> stop_requested_{false};
+  std::unique_ptr<Solution> solution_;  // from partition() on
+};
+
+}  // namespace hrad
