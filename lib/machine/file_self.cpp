@@ -1,0 +1,114 @@
+// Whole files of one process: temporary, checked writes, fsync, rename. Floor 2 (machine).
+#include "machine/file_self.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace hrad {
+
+namespace {
+
+constexpr size_t buffer_bytes = size_t{1} << 18;  // few system calls, little memory
+constexpr int name_attempts = 10000;              // left-over temporaries of as many dead processes
+
+std::string folder_of(const std::string& path) {
+  const size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+}  // namespace
+
+WholeFile::WholeFile(const std::string& path) : path_(path), target_(path) {
+  if (path.empty()) fail_here("create", ENOENT);
+  mode_t mode = 0;
+  struct stat status;
+  if (::stat(path.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) fail_here("create", EISDIR);
+    if (!S_ISREG(status.st_mode))
+      fail(Status::file, "%s: not a regular file, will not be replaced", path.c_str());
+    mode = status.st_mode & 07777;
+    char* resolved = ::realpath(path.c_str(), nullptr);
+    if (!resolved) fail_here("create", errno);
+    target_ = resolved;
+    std::free(resolved);
+  } else if (errno != ENOENT || path.back() == '/') {
+    fail_here("create", errno == ENOENT ? EISDIR : errno);
+  }
+  buffer_.reserve(buffer_bytes);
+  create_temporary(folder_of(target_), mode);
+}
+
+WholeFile::~WholeFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void WholeFile::fail_here(const char* step, int error) const {
+  fail(Status::file, "%s: cannot %s: %s", path_.c_str(), step, std::strerror(error));
+}
+
+// mode: that of the file to be replaced, 0 for a new file (the process's umask decides).
+void WholeFile::create_temporary(const std::string& folder, mode_t mode) {
+  for (int attempt = 0; attempt < name_attempts; ++attempt) {
+    // A name of its own length: the target's may already be as long as the file system allows.
+    const std::string name = folder + (folder.back() == '/' ? "" : "/") +
+                             format(".hrad-%ld-%d.tmp", static_cast<long>(::getpid()), attempt);
+    file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0) {
+      temporary_ = name;
+      if (mode != 0 && ::fchmod(file_, mode) != 0) fail_here("keep the mode", errno);
+      return;
+    }
+    if (errno != EEXIST && errno != EINTR) break;
+  }
+  fail_here("create", errno);
+}
+
+void WholeFile::write_out(const char* data, size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(file_, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail_here("write", written < 0 ? errno : EIO);
+    data += written;
+    size -= static_cast<size_t>(written);
+  }
+}
+
+void WholeFile::write(const void* data, size_t size) {
+  const char* bytes = static_cast<const char*>(data);
+  if (buffer_.size() + size > buffer_bytes) {
+    write_out(buffer_.data(), buffer_.size());
+    buffer_.clear();
+    if (size >= buffer_bytes) return write_out(bytes, size);
+  }
+  buffer_.insert(buffer_.end(), bytes, bytes + size);
+}
+
+void WholeFile::commit() {
+  write_out(buffer_.data(), buffer_.size());
+  buffer_.clear();
+  // Some file systems have no fsync and say EINVAL; everything else is data that may be lost.
+  if (::fsync(file_) != 0 && errno != EINVAL) fail_here("write", errno);
+  const int closed = ::close(file_);
+  const int close_error = errno;
+  file_ = -1;
+  if (closed != 0 && close_error != EINTR) fail_here("write", close_error);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_here("replace", errno);
+  temporary_.clear();
+  // The new name must survive a crash too. From here the file is whole: a folder that can't be
+  // synchronised is no failure of this write.
+  const int folder =
+      ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK);
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
+}
+
+}  // namespace hrad

@@ -1,0 +1,38 @@
+// Files that one process writes: they appear whole under their name or not at all. Floor 2
+// (machine).
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace hrad {
+
+// Bytes go to a temporary beside the target; commit() puts it in the target's place. Until then,
+// and when anything fails, the old file is untouched. A symbolic link is followed; a target that is
+// no regular file (a folder, a device) is refused. Every failure throws FILE with the path and the
+// system's reason.
+class WholeFile {
+ public:
+  explicit WholeFile(const std::string& path);
+  ~WholeFile();  // removes the temporary unless it was committed
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void write(const void* data, size_t size);
+  void text(const std::string& text) { write(text.data(), text.size()); }
+  void commit();  // once, as the last call
+
+ private:
+  [[noreturn]] void fail_here(const char* step, int error) const;
+  void create_temporary(const std::string& folder, mode_t mode);
+  void write_out(const char* data, size_t size);
+
+  std::string path_, target_, temporary_;  // target: path with links resolved
+  int file_ = -1;
+  std::vector<char> buffer_;
+};
+
+}  // namespace hrad
