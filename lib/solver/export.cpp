@@ -1,0 +1,59 @@
+// The choice of an export format by the ending of the path. Floor 8 (solver).
+#include "solver/export.h"
+
+#include "base/error.h"
+#include "scene/load.h"
+#include "solver/solver.h"
+
+namespace hrad {
+namespace {
+
+void export_scene(const Solver& solver, const std::string& path) {
+  write_obj(solver.scene(), path);
+}
+
+struct Format {
+  const char* ending;
+  void (*write)(const Solver&, const std::string&);  // nullptr: not in this version
+};
+
+constexpr Format formats[] = {{".csv", export_csv},
+                              {".vtu", export_vtu},
+                              {".obj", export_scene},
+                              {".ply", nullptr},
+                              {".glb", nullptr}};
+
+// From the last dot of the file's name on, in lower case; "" without a dot.
+std::string ending_of(const std::string& path) {
+  const size_t dot = path.find_last_of("./");
+  if (dot == std::string::npos || path[dot] == '/') return "";
+  std::string ending = path.substr(dot);
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return ending;
+}
+
+std::string writable_endings() {
+  std::string list;
+  for (const Format& f : formats)
+    if (f.write) list += (list.empty() ? "" : ", ") + std::string(f.ending);
+  return list;
+}
+
+}  // namespace
+
+void export_solution(const Solver& solver, const std::string& path) {
+  const std::string ending = ending_of(path);
+  for (const Format& f : formats) {
+    if (ending != f.ending) continue;
+    if (!f.write)
+      fail(Status::unsupported, "%s: this version does not write %s; use one of %s", path.c_str(),
+           f.ending, writable_endings().c_str());
+    f.write(solver, path);
+    return;
+  }
+  fail(Status::argument, "%s: its ending names no export format; use one of %s", path.c_str(),
+       writable_endings().c_str());
+}
+
+}  // namespace hrad
