@@ -209,9 +209,10 @@ bool ThreadTeam::for_each(int64_t count, const std::function<void(int64_t task, 
   if (state_->busy.exchange(true))
     fail(Status::internal, "a loop was started on a thread team that is running one");
   Loop loop(count, body);
-  bool go_on = true;
+  bool go_on = true, reported = false;
   const auto report = [&] {
     if (!between || !go_on) return;
+    reported = true;
     try {
       go_on = between(loop.finished());
     } catch (...) {
@@ -225,6 +226,7 @@ bool ThreadTeam::for_each(int64_t count, const std::function<void(int64_t task, 
   if (shared) state_->open(&loop);
   while (loop.run_one(0)) report();
   if (shared) state_->close(report);
+  if (count > 0 && !reported) report();  // the others may have been quicker with all tasks
   state_->busy.store(false);
   loop.rethrow();
   return go_on;
