@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "machine/file_self.h"
 #include "solver/export.h"
 #include "solver/solver.h"
