@@ -45,6 +45,7 @@ class Solver {
   void set_text(const std::string& name, const std::string& value);
   const Params& params() const { return params_; }
   Log& log() { return log_; }
+  // sink returns false to stop the solve at the next safe point. Called on the thread of solve().
   void set_progress(std::function<bool(const Progress&)> sink) { progress_ = std::move(sink); }
 
   // load
@@ -100,6 +101,7 @@ class Solver {
   mutable Stats stats_;
   std::atomic<bool> stop_requested_{false};
   std::unique_ptr<Solution> solution_;  // from partition() on
+  bool begun_ = false;  // solve() was entered with a valid scene: result parameters hold from then on
 };
 
 }  // namespace hrad
