@@ -6,8 +6,10 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-// cmocka.h wants the headers above first.
+// cmocka.h wants the headers above first, and doesn't say that it is C.
+extern "C" {
 #include <cmocka.h>
+}
 
 #include <cmath>
 #include <cstdio>
