@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# From a fresh clone to a first result: installs what is missing (Debian, as root or with sudo),
+# builds the library and the tool, solves the Classroom scene, and leaves its summary and the
+# solution as .vtu and .csv in the folder out/.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+bash tests/setup.sh build
+
+generator=(-G Ninja)
+if [[ -f build/CMakeCache.txt ]]; then generator=(); fi  # a configured folder keeps its own
+cmake -S . -B build "${generator[@]}" -DCMAKE_BUILD_TYPE=Release -DHRAD_TESTS=OFF
+cmake --build build --parallel "$(nproc)"
+
+mkdir -p out
+build/hrad solve classroom -o out/classroom.vtu -o out/classroom.csv | tee out/classroom.txt
+echo
+ls -l out/classroom.txt out/classroom.vtu out/classroom.csv

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing, by apt; does nothing, and needs no network, when all
+# are there.
+#   bash tests/setup.sh         what building the library and the tool needs
+#   bash tests/setup.sh tests   and what the tests need besides
+set -euo pipefail
+
+packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev)
+optional=()
+case "${1:-build}" in
+  build) ;;
+  tests)
+    packages+=(libcmocka-dev python3)
+    # The second ray engine, against which the built-in one is checked; not on every architecture.
+    optional+=(libembree-dev)
+    ;;
+  *)
+    echo "usage: bash tests/setup.sh [build|tests]" >&2
+    exit 2
+    ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "This is no Debian system: make sure that there are a C++17 compiler, cmake, ninja," \
+    "pkg-config, hwloc and CLI11 (for the tests also cmocka and python3)." >&2
+  exit 0
+fi
+
+is_installed() {
+  [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+missing=() missing_optional=()
+for package in "${packages[@]}"; do is_installed "$package" || missing+=("$package"); done
+for package in "${optional[@]}"; do is_installed "$package" || missing_optional+=("$package"); done
+if [[ ${#missing[@]} == 0 && ${#missing_optional[@]} == 0 ]]; then exit 0; fi
+
+as_root=()
+if [[ $(id -u) != 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "As root, install: apt-get install ${missing[*]} ${missing_optional[*]}" >&2
+    [[ ${#missing[@]} == 0 ]] && exit 0
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get --quiet --quiet --option DPkg::Lock::Timeout=300 "$@"
+}
+
+echo "Installing ${missing[*]} ${missing_optional[*]}" >&2
+apt update || echo "The package lists could not be renewed; going on with those that are here." >&2
+if [[ ${#missing[@]} != 0 ]]; then
+  apt install --yes --no-install-recommends "${missing[@]}" >/dev/null
+fi
+for package in "${missing_optional[@]}"; do
+  apt install --yes --no-install-recommends "$package" >/dev/null ||
+    echo "Going on without the optional $package." >&2
+done
