@@ -1,0 +1,274 @@
+// The solver while its scene is being made: materials, patches and their values, with all checks of
+// what a user hands in (paper, Section 3, Initial Stage: the load). Every method does
+// its whole work or none. Floor 8 (solver).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "scene/load.h"
+#include "solver/solver.h"
+
+namespace hrad {
+namespace {
+
+// Coordinates beyond this would overflow when areas are multiplied.
+constexpr double kLargestCoordinate = 1e30;
+// Patches and vertices are named by 32-bit indices.
+constexpr int64_t kMostPatches = std::numeric_limits<int32_t>::max();
+// Share of measuring rays that meet black backs above which windings are probably wrong.
+constexpr double kDoubtfulBackShare = 0.05;
+
+// Adds the time from its making to its end to a counter.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double* seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    *seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double* seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Takes back what was added to a scene since it was made, unless it is told to keep it.
+class SceneAddition {
+ public:
+  explicit SceneAddition(Scene& scene)
+      : scene_(scene),
+        vertices_(scene.vertices.size()),
+        materials_(scene.materials.size()),
+        patches_(scene.corners.size()),
+        diagnostics_(scene.diagnostics) {}
+  ~SceneAddition() {
+    if (kept_) return;
+    scene_.vertices.resize(vertices_);
+    scene_.materials.resize(materials_);
+    scene_.corners.resize(patches_);
+    scene_.material.resize(patches_);
+    scene_.face.resize(patches_);
+    scene_.flags.resize(patches_);
+    scene_.emission.resize(patches_ * static_cast<size_t>(scene_.bands));
+    scene_.reflectance.resize(patches_ * static_cast<size_t>(scene_.bands));
+    scene_.diagnostics.swap(diagnostics_);
+  }
+  SceneAddition(const SceneAddition&) = delete;
+  SceneAddition& operator=(const SceneAddition&) = delete;
+
+  int64_t first_patch() const { return static_cast<int64_t>(patches_); }
+  void keep() { kept_ = true; }
+
+ private:
+  Scene& scene_;
+  const size_t vertices_, materials_, patches_;
+  std::vector<std::string> diagnostics_;
+  bool kept_ = false;
+};
+
+// What check_patches and the loaders found since `before` goes to the log as well.
+void warn(const Log& log, const Scene& scene, size_t before) {
+  for (size_t i = before; i < scene.diagnostics.size(); ++i)
+    log.write(Log::warning, scene.diagnostics[i]);
+}
+
+// owner and number: whose value it is, as "patch" 7.
+void check_reflectance(double value, const char* owner, int64_t number, size_t band) {
+  if (!(value >= 0 && value < 1))
+    fail(Status::argument,
+         "the reflectance of %s %lld in band %zu is %g: it must be at least 0 and less than 1",
+         owner, static_cast<long long>(number), band, value);
+}
+
+void check_emission(double value, const char* owner, int64_t number, size_t band) {
+  if (!(value >= 0 && value <= std::numeric_limits<double>::max()))
+    fail(Status::argument,
+         "the emission of %s %lld in band %zu is %g W/m2: it must be finite and at least 0", owner,
+         static_cast<long long>(number), band, value);
+}
+
+void check_patch_range(const Scene& scene, int64_t first, int64_t count) {
+  const int64_t patches = scene.patch_count();
+  if (first < 0 || count < 0 || first > patches || count > patches - first)
+    fail(Status::argument, "%lld patches from %lld on: the scene has %lld patches, from 0 on",
+         static_cast<long long>(count), static_cast<long long>(first),
+         static_cast<long long>(patches));
+}
+
+bool emits(const Scene& scene) {
+  const auto bands = static_cast<size_t>(scene.bands);
+  for (int64_t patch = 0; patch < scene.patch_count(); ++patch) {
+    if (scene.has(patch, patch_dropped) || scene.has(patch, patch_blocker)) continue;
+    for (size_t band = 0; band < bands; ++band)
+      if (scene.emission[static_cast<size_t>(patch) * bands + band] > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void Solver::require_open() const {
+  if (solution_)
+    fail(Status::state,
+         "the scene was closed by the partition and can't grow: add everything before it, or make "
+         "a new solver");
+}
+
+int32_t Solver::add_material(Material material) {
+  require_open();
+  const auto bands = static_cast<size_t>(scene_.bands);
+  const auto number = static_cast<int64_t>(scene_.materials.size());
+  if (number >= std::numeric_limits<int32_t>::max())
+    fail(Status::argument, "there are %lld materials already: no more can be numbered",
+         static_cast<long long>(number));
+  if ((!material.reflectance.empty() && material.reflectance.size() != bands) ||
+      (!material.emission.empty() && material.emission.size() != bands))
+    fail(Status::argument, "material %lld needs a reflectance and an emission of %zu bands each",
+         static_cast<long long>(number), bands);
+  for (size_t band = 0; band < material.reflectance.size(); ++band)
+    check_reflectance(material.reflectance[band], "material", number, band);
+  for (size_t band = 0; band < material.emission.size(); ++band) {
+    check_emission(material.emission[band], "material", number, band);
+    if (material.blocker && material.emission[band] > 0)
+      fail(Status::argument, "material %lld is a blocker and can't emit: leave its emission 0",
+           static_cast<long long>(number));
+  }
+  return scene_.add_material(std::move(material));
+}
+
+void Solver::add_patches(int64_t n_vertices, const double* xyz, int64_t n_triangles,
+                         const int64_t* vertex, const int32_t* material) {
+  const Stopwatch stopwatch(&stats_.seconds_load);
+  require_open();
+  // Counts first: the arrays are not touched before it is known that they can be that long.
+  if (n_vertices < 0 || n_triangles < 0)
+    fail(Status::argument, "%lld vertices and %lld triangles: counts can't be negative",
+         static_cast<long long>(n_vertices), static_cast<long long>(n_triangles));
+  const auto base = static_cast<int64_t>(scene_.vertices.size());
+  if (n_vertices > kMostPatches - base || n_triangles > kMostPatches - scene_.patch_count())
+    fail(Status::argument,
+         "%lld more vertices and %lld more triangles are too many: a scene has up to %lld of each",
+         static_cast<long long>(n_vertices), static_cast<long long>(n_triangles),
+         static_cast<long long>(kMostPatches));
+  if ((n_vertices > 0 && !xyz) || (n_triangles > 0 && !vertex))
+    fail(Status::argument, "the array of %s is NULL",
+         xyz || n_vertices == 0 ? "indices" : "coordinates");
+  for (int64_t i = 0; i < 3 * n_vertices; ++i)
+    if (!(std::fabs(xyz[i]) <= kLargestCoordinate))
+      fail(Status::argument,
+           "vertex %lld has the coordinate %g: coordinates must be finite and within +-%g",
+           static_cast<long long>(i / 3), xyz[i], kLargestCoordinate);
+  for (int64_t i = 0; i < 3 * n_triangles; ++i)
+    if (vertex[i] < 0 || vertex[i] >= n_vertices)
+      fail(Status::argument, "triangle %lld has the vertex %lld: this call has %lld, from 0 on",
+           static_cast<long long>(i / 3), static_cast<long long>(vertex[i]),
+           static_cast<long long>(n_vertices));
+  const auto materials = static_cast<int64_t>(scene_.materials.size());
+  for (int64_t i = 0; material && i < n_triangles; ++i)
+    if (material[i] < 0 || material[i] >= materials)
+      fail(Status::argument, "triangle %lld has the material %d: there are %lld, from 0 on",
+           static_cast<long long>(i), static_cast<int>(material[i]),
+           static_cast<long long>(materials));
+  if (n_triangles == 0) return;
+
+  SceneAddition addition(scene_);
+  const size_t diagnostics = scene_.diagnostics.size();
+  if (!material && materials == 0) {
+    Material gray;  // its missing values are reflectance 0.5 and emission 0
+    gray.name = "default";
+    scene_.add_material(std::move(gray));
+  }
+  for (int64_t i = 0; i < n_vertices; ++i)
+    scene_.add_vertex({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
+  const auto corner = [&](int64_t i) { return static_cast<int32_t>(base + vertex[i]); };
+  for (int64_t i = 0; i < n_triangles; ++i)
+    scene_.add_patch(corner(3 * i), corner(3 * i + 1), corner(3 * i + 2),
+                     material ? material[i] : 0);
+  check_patches(scene_, addition.first_patch());
+  warn(log_, scene_, diagnostics);
+  addition.keep();
+}
+
+void Solver::load_scene(const std::string& path) {
+  const Stopwatch stopwatch(&stats_.seconds_load);
+  require_open();
+  if (scene_.bands != 1 && scene_.bands != 3)
+    fail(Status::state,
+         "parameter 'bands' is %d and %s has red, green and blue: set bands to 1 or 3 first",
+         scene_.bands, path.c_str());
+  const Sides sides = params_.sides == "two-sided" ? Sides::two_sided
+                      : params_.sides == "flip"    ? Sides::flip
+                                                   : Sides::front;
+  SceneAddition addition(scene_);
+  const size_t diagnostics = scene_.diagnostics.size();
+  load_obj(scene_, path, sides);
+  check_patches(scene_, addition.first_patch());
+  warn(log_, scene_, diagnostics);
+  addition.keep();
+}
+
+void Solver::make_scene(const std::string& name) {
+  const Stopwatch stopwatch(&stats_.seconds_load);
+  require_open();
+  if (scene_.patch_count() > 0 || !scene_.materials.empty())
+    fail(Status::state,
+         "the solver has %lld patches and %zu materials: a built-in scene needs an empty one",
+         static_cast<long long>(scene_.patch_count()), scene_.materials.size());
+  Scene made;
+  made.bands = scene_.bands;
+  make_builtin_scene(made, name);
+  check_patches(made, 0);
+  warn(log_, made, 0);
+  scene_ = std::move(made);
+}
+
+void Solver::set_emission(int64_t first, int64_t count, const double* values) {
+  check_patch_range(scene_, first, count);
+  const auto bands = static_cast<size_t>(scene_.bands);
+  for (int64_t i = 0; i < count; ++i)
+    for (size_t band = 0; band < bands; ++band) {
+      const double value = values[static_cast<size_t>(i) * bands + band];
+      check_emission(value, "patch", first + i, band);
+      if (value > 0 && scene_.has(first + i, patch_blocker))
+        fail(Status::state, "patch %lld is a blocker and can't emit: leave its emission 0",
+             static_cast<long long>(first + i));
+    }
+  const size_t total = static_cast<size_t>(count) * bands;
+  std::copy_n(values, total,
+              scene_.emission.begin() + static_cast<ptrdiff_t>(first) * scene_.bands);
+}
+
+void Solver::set_reflectance(int64_t first, int64_t count, const double* values) {
+  check_patch_range(scene_, first, count);
+  const auto bands = static_cast<size_t>(scene_.bands);
+  const size_t total = static_cast<size_t>(count) * bands;
+  for (size_t i = 0; i < total; ++i)
+    check_reflectance(values[i],
+                      place("patch", first + static_cast<int64_t>(i / bands), i % bands));
+  std::copy_n(values, total,
+              scene_.reflectance.begin() + static_cast<ptrdiff_t>(first) * scene_.bands);
+}
+
+std::vector<std::string> Solver::diagnostics() const {
+  std::vector<std::string> all = scene_.diagnostics;
+  if (scene_.patch_count() > 0 && !emits(scene_))
+    all.push_back("no patch emits: the solution is 0 everywhere");
+  if (solved() && stats_.back_share > kDoubtfulBackShare)
+    all.push_back(format(
+        "%.1f %% of the rays that measured met the backs of one-sided patches: if these are the "
+        "wrong way round or mean sheets, load with the parameter sides = flip or two-sided "
+        "(hrad: --flip, --two-sided)",
+        100 * stats_.back_share));
+  if (solved() && stats_.sealed_area > 0)
+    all.push_back(
+        format("%g of %g %s^2 of surface are sealed: pressed against another surface or "
+               "inside a solid, they see nothing",
+               stats_.sealed_area, stats_.area, params_.unit.c_str()));
+  return all;
+}
+
+}  // namespace hrad
