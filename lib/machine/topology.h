@@ -12,7 +12,9 @@ namespace hrad {
 struct Topology {
   int packages = 0, numa_nodes = 0, cores = 0, contexts = 0;  // of the whole machine
   int usable_cores = 0, usable_contexts = 0;                  // of this process's cpuset
-  bool synthetic = false;  // not this machine: threads must not be bound
+  bool synthetic = false;               // not this machine: threads must not be bound
+  bool caller_confined = false;         // the calling thread may use less than its process
+  std::string source = "this machine";  // or "synthetic", "recorded": what hwloc was told to read
   // For every usable core the operating-system numbers of its usable contexts, in logical order.
   std::vector<std::vector<int>> core_contexts;
 };
@@ -21,10 +23,20 @@ struct Topology {
 // does). Never fails: a machine that can't be read is one core.
 Topology read_topology();
 
+// A machine that is not here, for tests and planning: hwloc's synthetic description, or the XML
+// text or file that lstopo wrote elsewhere. Usable is what that topology allows. Throws
+// Error(argument) where hwloc can't read it.
+enum class TopologyKind { synthetic, xml, xml_file };
+Topology read_topology_from(TopologyKind kind, const std::string& text);
+
 struct PoolPlan {
   int threads = 1;
-  std::vector<std::vector<int>> binding;  // per worker, empty when not bound
-  std::string reason;                     // one sentence: why this many
+  // Per worker, as ThreadTeam takes it; empty when not bound. Where the caller is confined to less
+  // than its process (as by OMP_PROC_BIND), workers that are not to be pinned get the whole of the
+  // process's processors instead of inheriting the caller's.
+  std::vector<std::vector<int>> binding;
+  bool pinned = false;  // binding keeps each worker to its own core or context
+  std::string reason;   // one sentence: why this many
 };
 
 // threads: 0 = from the topology; smt: also use a core's further contexts; bind: pin workers.
