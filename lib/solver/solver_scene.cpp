@@ -247,8 +247,7 @@ void Solver::set_reflectance(int64_t first, int64_t count, const double* values)
   const auto bands = static_cast<size_t>(scene_.bands);
   const size_t total = static_cast<size_t>(count) * bands;
   for (size_t i = 0; i < total; ++i)
-    check_reflectance(values[i],
-                      place("patch", first + static_cast<int64_t>(i / bands), i % bands));
+    check_reflectance(values[i], "patch", first + static_cast<int64_t>(i / bands), i % bands);
   std::copy_n(values, total,
               scene_.reflectance.begin() + static_cast<ptrdiff_t>(first) * scene_.bands);
 }
