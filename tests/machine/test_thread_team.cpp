@@ -1,9 +1,9 @@
 // The thread pool: every task once, by index, whatever the threads; which exception wins; stopping.
+#include <sys/resource.h>
+
 #include <atomic>
 #include <chrono>
 #include <future>
-#include <mutex>
-#include <set>
 #include <thread>
 
 #include "base/error.h"
@@ -258,6 +258,33 @@ void binding_is_harmless() {
   }
 }
 
+// Where there is no room for the stacks of all threads, the constructor says so and leaves nothing
+// behind. (The sanitizers' own memory makes such a limit meaningless.)
+void too_many_threads() {
+#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+  rlimit before;
+  CHECK_EQUAL(getrlimit(RLIMIT_AS, &before), 0);
+  rlimit narrow = before;
+  narrow.rlim_cur = rlim_t{1} << 30;
+  CHECK_EQUAL(setrlimit(RLIMIT_AS, &narrow), 0);
+  bool failed = false;
+  std::string message;
+  try {
+    ThreadTeam(4000);
+  } catch (const Error& e) {
+    failed = e.status() == Status::memory;
+    message = e.what();
+  }
+  CHECK_EQUAL(setrlimit(RLIMIT_AS, &before), 0);
+  CHECK(failed);
+  CHECK(message.find("of 4000 threads") != std::string::npos);
+#endif
+  ThreadTeam team(3);
+  std::atomic<int> calls{0};
+  CHECK(team.for_each(9, [&](int64_t, int) { ++calls; }));
+  CHECK_EQUAL(calls.load(), 9);
+}
+
 void bad_size() {
   CHECK_FAILS(ThreadTeam(0), Status::argument, "at least 1");
   CHECK_FAILS(ThreadTeam(-3), Status::argument, "-3");
@@ -283,6 +310,7 @@ int main() {
       HRAD_TEST(repeated_use),
       HRAD_TEST(teams_are_independent),
       HRAD_TEST(binding_is_harmless),
+      HRAD_TEST(too_many_threads),
       HRAD_TEST(bad_size),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
