@@ -1,0 +1,123 @@
+// Files named by -o (output_files.h). CLI: public headers only.
+#include "output_files.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+#include "exit_code.h"
+#include "signals.h"
+
+namespace hrad::cli {
+namespace {
+
+struct Format {
+  const char* ending;
+  OutputFiles::Kind kind;
+  bool in_this_version;
+};
+
+constexpr Format formats[] = {
+    {".csv", OutputFiles::results, true},   {".vtu", OutputFiles::results, true},
+    {".ply", OutputFiles::results, false},  {".glb", OutputFiles::results, false},
+    {".hrad", OutputFiles::results, false}, {".obj", OutputFiles::scenes, true},
+};
+
+std::string ending_of(const std::string& path) {
+  const size_t name = path.find_last_of('/') + 1;  // npos + 1 is 0
+  const size_t dot = path.find_last_of('.');
+  return dot == std::string::npos || dot < name ? "" : path.substr(dot);
+}
+
+std::string known_endings(OutputFiles::Kind kind) {
+  std::string endings;
+  for (const Format& format : formats)
+    if (format.kind == kind && format.in_this_version)
+      endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
+  return endings;
+}
+
+void check_ending(const std::string& path, OutputFiles::Kind kind) {
+  const std::string ending = ending_of(path);
+  const std::string hint = "endings known here: " + known_endings(kind);
+  for (const Format& format : formats) {
+    if (ending != format.ending) continue;
+    if (format.kind != kind)
+      throw Failure(exit_usage,
+                    "-o " + path + ": a " + ending + " file holds " +
+                        (format.kind == OutputFiles::scenes ? "a scene, not a result"
+                                                            : "a result, not a scene"),
+                    hint);
+    if (!format.in_this_version)
+      throw Failure(exit_usage, "-o " + path + ": this version doesn't write " + ending + " files",
+                    hint);
+    return;
+  }
+  throw Failure(exit_usage,
+                "-o " + path + ": " +
+                    (ending.empty() ? "no ending tells the format" : "unknown ending " + ending),
+                hint);
+}
+
+[[noreturn]] void fail_to_write(const std::string& path, const std::string& reason) {
+  throw Failure(exit_input_output, "can't write '" + path + "': " + reason);
+}
+
+void check_place(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) fail_to_write(path, "it is a directory");
+    if (::access(path.c_str(), W_OK) != 0) fail_to_write(path, std::strerror(errno));
+  }
+  const size_t slash = path.find_last_of('/');
+  const std::string folder = slash == std::string::npos ? "."
+                             : slash == 0               ? "/"
+                                                        : path.substr(0, slash);
+  if (::stat(folder.c_str(), &status) != 0)
+    fail_to_write(path, "directory '" + folder + "': " + std::strerror(errno));
+  if (!S_ISDIR(status.st_mode)) fail_to_write(path, "'" + folder + "' is not a directory");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    fail_to_write(path, "directory '" + folder + "': " + std::strerror(errno));
+}
+
+bool same_file(const std::string& one, const std::string& other) {
+  if (one == other) return true;
+  struct stat a {
+  }, b{};
+  return ::stat(one.c_str(), &a) == 0 && ::stat(other.c_str(), &b) == 0 && a.st_dev == b.st_dev &&
+         a.st_ino == b.st_ino;
+}
+
+}  // namespace
+
+void OutputFiles::add_to(Arguments* arguments, const std::string& command) {
+  command_ = command;
+  arguments->add_list("-o,--output", "FILE", &paths_,
+                      "Write this file; its ending tells the format: " + known_endings(kind_));
+}
+
+void OutputFiles::check(const std::string& input_file) const {
+  for (const std::string& path : paths_) check_ending(path, kind_);
+  for (size_t i = 0; i < paths_.size(); ++i) {
+    if (!input_file.empty() && same_file(paths_[i], input_file))
+      fail_usage(command_, "-o " + paths_[i] + " would write over the input");
+    for (size_t j = 0; j < i; ++j)
+      if (same_file(paths_[i], paths_[j]))
+        fail_usage(command_, "-o " + paths_[i] + " is given twice");
+  }
+  for (const std::string& path : paths_) check_place(path);
+}
+
+double OutputFiles::write(Session* session) const {
+  const auto start = std::chrono::steady_clock::now();
+  for (const std::string& path : paths_) {
+    hrad::cli::check(hrad_export(session->solver(), path.c_str()));
+    signals::check();
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace hrad::cli

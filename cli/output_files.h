@@ -1,0 +1,35 @@
+// The files that -o names: judged before any work is done, written after it. CLI: public headers
+// only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "session.h"
+
+namespace hrad::cli {
+
+class OutputFiles {
+ public:
+  // A kind of file is known by its ending.
+  enum Kind { results, scenes };
+
+  explicit OutputFiles(Kind kind) : kind_(kind) {}
+  void add_to(Arguments* arguments, const std::string& command);
+
+  // Failure (usage) for an unknown ending, a name given twice or the input's own; Failure
+  // (input/output) where it can be seen that writing would fail.
+  void check(const std::string& input_file) const;
+  // Writes all files, each whole or not at all, and returns the seconds it took.
+  double write(Session* session) const;
+
+  const std::vector<std::string>& paths() const { return paths_; }
+
+ private:
+  Kind kind_;
+  std::string command_;
+  std::vector<std::string> paths_;
+};
+
+}  // namespace hrad::cli

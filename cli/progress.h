@@ -1,0 +1,21 @@
+// What the progress line says: stage, percent, time left. CLI: public headers only.
+#pragma once
+
+#include <string>
+
+#include "hrad/hrad.h"
+#include "terminal.h"
+
+namespace hrad::cli {
+
+class Progress {
+ public:
+  explicit Progress(Terminal* terminal) : terminal_(terminal) {}
+  void show(const hrad_progress& progress);
+
+ private:
+  Terminal* terminal_;
+  int percent_ = 0;  // the largest shown: the line never runs backwards
+};
+
+}  // namespace hrad::cli

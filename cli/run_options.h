@@ -1,0 +1,47 @@
+// The options of every command that works on a scene: where it comes from, the parameters, how much
+// is said. CLI: public headers only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arguments.h"
+#include "terminal.h"
+
+namespace hrad::cli {
+
+class RunOptions {
+ public:
+  enum Takes { a_scene, no_scene };
+
+  void add_to(Arguments* arguments, const std::string& command, Takes takes);
+  // What can be judged before anything is loaded: Failure (usage, scene, MPI). Call after parsing.
+  void check() const;
+
+  const std::string& scene() const { return scene_; }
+  bool scene_is_file() const;
+  Verbosity verbosity() const;
+  // Names and values for hrad_set_text, in the order of the table of options.
+  std::vector<std::pair<std::string, std::string>> parameters() const;
+
+ private:
+  void check_scene() const;
+  void check_launcher() const;
+
+  std::string command_;
+  Takes takes_ = no_scene;
+  std::string scene_;
+  std::optional<std::string> accuracy_, threads_, mpi_;
+  std::optional<std::string> checkpoint_, checkpoint_interval_, checkpoint_keep_, restart_,
+      time_limit_;
+  std::vector<std::string> set_;
+  bool two_sided_ = false, flip_ = false, quiet_ = false, verbose_ = false;
+};
+
+// The built-in scenes, separated by commas; and whether a name is one of them.
+std::string builtin_scene_names();
+bool is_builtin_scene(const std::string& name);
+
+}  // namespace hrad::cli

@@ -1,0 +1,172 @@
+// A solver for one command (session.h). CLI: public headers only.
+#include "session.h"
+
+#include <algorithm>
+
+#include "exit_code.h"
+#include "numbers.h"
+#include "signals.h"
+
+namespace hrad::cli {
+
+int exit_code_of(hrad_status status) {
+  switch (status) {
+    case HRAD_OK:
+      return exit_done;
+    case HRAD_NOT_CONVERGED:
+      return exit_not_converged;
+    case HRAD_STOPPED:
+      return exit_stopped;
+    case HRAD_ERROR_ARGUMENT:
+    case HRAD_ERROR_UNSUPPORTED:
+      return exit_usage;
+    case HRAD_ERROR_MEMORY:
+      return exit_memory;
+    case HRAD_ERROR_FILE:
+      return exit_input_output;
+    case HRAD_ERROR_FORMAT:
+      return exit_checkpoint;
+    case HRAD_ERROR_SCENE:
+      return exit_scene;
+    case HRAD_ERROR_MPI:
+      return exit_mpi;
+    default:
+      return exit_internal;
+  }
+}
+
+void check(hrad_status status) {
+  if (status < 0) throw Failure(exit_code_of(status), hrad_error_message());
+}
+
+std::string fetch_text(const TextFunction& function) {
+  int64_t needed = 0;
+  check(function(nullptr, 0, &needed));
+  std::string text(static_cast<size_t>(std::max<int64_t>(needed, 1)), '\0');
+  check(function(&text[0], static_cast<int64_t>(text.size()), &needed));
+  text.resize(text.find('\0'));
+  return text;
+}
+
+std::vector<hrad_param> parameter_table() {
+  std::vector<hrad_param> rows;
+  hrad_param row{};
+  row.struct_size = sizeof row;
+  while (hrad_describe_param(static_cast<int64_t>(rows.size()), &row) == HRAD_OK)
+    rows.push_back(row);
+  return rows;
+}
+
+Session::Session(const RunOptions& options)
+    : options_(options), terminal_(options.verbosity()), progress_(&terminal_) {
+  check(hrad_create(&solver_));
+  try {
+    const int32_t level = terminal_.verbosity() == Verbosity::quiet     ? HRAD_LOG_ERROR
+                          : terminal_.verbosity() == Verbosity::verbose ? HRAD_LOG_INFO
+                                                                        : HRAD_LOG_WARNING;
+    check(hrad_set_log(solver_, log, this, level));
+    check(hrad_set_progress(solver_, show_progress, this));
+    for (const auto& [name, value] : options_.parameters())
+      check(hrad_set_text(solver_, name.c_str(), value.c_str()));
+  } catch (...) {
+    hrad_destroy(&solver_);
+    throw;
+  }
+}
+
+Session::~Session() { hrad_destroy(&solver_); }
+
+void Session::load() {
+  const std::string& scene = options_.scene();
+  const hrad_status status = options_.scene_is_file() ? hrad_load_scene(solver_, scene.c_str())
+                                                      : hrad_make_scene(solver_, scene.c_str());
+  // The one thing that can be out of order here is a parameter that doesn't suit the scene.
+  if (status == HRAD_ERROR_STATE) throw Failure(exit_usage, hrad_error_message());
+  check(status);
+  signals::check();
+  warn_of_diagnostics();
+}
+
+int Session::solve() {
+  hrad_status status = HRAD_OK;
+  {
+    signals::Watch watch(solver_);
+    status = hrad_solve(solver_);
+  }
+  terminal_.clear_line();
+  signals::check();
+  check(status);
+  if (status == HRAD_STOPPED) throw Failure(exit_internal, "the solve stopped unasked");
+  warn_of_diagnostics();
+  if (status == HRAD_NOT_CONVERGED && terminal_.verbosity() != Verbosity::quiet)
+    terminal_.say(
+        "warning: not converged: the accuracy asked for was not reached (more --set "
+        "max_iterations, or a larger --accuracy)");
+  return exit_code_of(status);
+}
+
+int64_t Session::bands() const {
+  int64_t bands = 0;
+  check(hrad_get_int(solver_, "bands", &bands));
+  return bands;
+}
+
+int64_t Session::patches() const {
+  int64_t patches = 0;
+  check(hrad_scene_size(solver_, &patches, nullptr));
+  return patches;
+}
+
+std::string Session::parameter(const char* name) const {
+  return fetch_text([&](char* text, int64_t size, int64_t* needed) {
+    return hrad_get_text(solver_, name, text, size, needed);
+  });
+}
+
+std::vector<std::string> Session::diagnostics() const {
+  std::vector<std::string> result;
+  int64_t needed = 0;
+  while (hrad_get_diagnostic(solver_, static_cast<int64_t>(result.size()), nullptr, 0, &needed) ==
+         HRAD_OK) {
+    const auto index = static_cast<int64_t>(result.size());
+    result.push_back(fetch_text([&](char* text, int64_t size, int64_t* length) {
+      return hrad_get_diagnostic(solver_, index, text, size, length);
+    }));
+  }
+  return result;
+}
+
+// What the library found doubtful and has not said through the log.
+void Session::warn_of_diagnostics() {
+  if (terminal_.verbosity() == Verbosity::quiet) return;
+  for (const std::string& text : diagnostics()) {
+    if (std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end()) continue;
+    warnings_.push_back(text);
+    terminal_.say("warning: " + text);
+  }
+}
+
+// The two callbacks are called by C code: no exception may leave them.
+void Session::log(int32_t level, const char* message, void* user) {
+  auto* session = static_cast<Session*>(user);
+  try {
+    if (level == HRAD_LOG_WARNING) session->warnings_.emplace_back(message);
+    session->terminal_.say((level == HRAD_LOG_ERROR     ? "error: "
+                            : level == HRAD_LOG_WARNING ? "warning: "
+                                                        : "") +
+                           std::string(message));
+  } catch (...) {
+    // A message lost for want of memory: the call that sent it will meet the same want.
+  }
+}
+
+int32_t Session::show_progress(const hrad_progress* progress, void* user) {
+  try {
+    static_cast<Session*>(user)->progress_.show(*progress);
+  } catch (...) {
+    return 1;
+  }
+  return signals::pending() != 0;
+}
+
+}  // namespace hrad::cli

@@ -1,0 +1,59 @@
+// One solver for the length of a command: created with the options' parameters, its statuses turned
+// into failures with exit codes, its messages and progress shown. CLI: public headers only.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hrad/hrad.h"
+#include "progress.h"
+#include "run_options.h"
+#include "terminal.h"
+
+namespace hrad::cli {
+
+class Session {
+ public:
+  explicit Session(const RunOptions& options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  hrad_solver* solver() const { return solver_; }
+  Terminal& terminal() { return terminal_; }
+
+  void load();  // the options' scene
+  // exit_done or exit_not_converged; Interrupted when a signal stopped it.
+  int solve();
+
+  int64_t bands() const;
+  int64_t patches() const;
+  std::string parameter(const char* name) const;
+  std::vector<std::string> diagnostics() const;
+
+ private:
+  static void log(int32_t level, const char* message, void* user);
+  static int32_t show_progress(const hrad_progress* progress, void* user);
+  void warn_of_diagnostics();
+
+  RunOptions options_;
+  Terminal terminal_;
+  Progress progress_;
+  hrad_solver* solver_ = nullptr;
+  std::vector<std::string> warnings_;  // already said
+};
+
+// Failure with the library's message when a status is an error.
+void check(hrad_status status);
+int exit_code_of(hrad_status status);
+
+// A text that the library writes into a caller's buffer.
+using TextFunction = std::function<hrad_status(char* text, int64_t size, int64_t* needed)>;
+std::string fetch_text(const TextFunction& function);
+
+// All rows of the table of parameters.
+std::vector<hrad_param> parameter_table();
+
+}  // namespace hrad::cli

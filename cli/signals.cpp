@@ -1,0 +1,64 @@
+// Signals (signals.h). A handler may run on any thread, the library's too; it does only what is
+// allowed there: lock-free atomics, hrad_request_stop, _exit. CLI: public headers only.
+#include "signals.h"
+
+#include <sched.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "exit_code.h"
+
+namespace hrad::cli::signals {
+namespace {
+
+std::atomic<int> first_signal{0};
+std::atomic<int> urgent_signals{0};  // SIGINT and SIGTERM so far
+std::atomic<int> handlers_running{0};
+std::atomic<hrad_solver*> watched{nullptr};
+
+static_assert(std::atomic<int>::is_always_lock_free &&
+                  std::atomic<hrad_solver*>::is_always_lock_free,
+              "a signal handler needs them");
+
+void handle(int number) {
+  handlers_running.fetch_add(1);
+  if (number != SIGUSR1 && urgent_signals.fetch_add(1) > 0) ::_exit(exit_signal + number);
+  int none = 0;
+  first_signal.compare_exchange_strong(none, number);
+  hrad_request_stop(watched.load());
+  handlers_running.fetch_sub(1);
+}
+
+}  // namespace
+
+void install() {
+  struct sigaction action {};
+  action.sa_handler = handle;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (int number : {SIGINT, SIGTERM, SIGUSR1}) ::sigaction(number, &action, nullptr);
+  // SIGUSR2 asks for a checkpoint and must not end a solve where there is none to write.
+  ::signal(SIGUSR2, SIG_IGN);
+}
+
+int pending() { return first_signal.load(); }
+
+void check() {
+  if (pending() != 0) throw Interrupted{pending()};
+}
+
+Watch::Watch(hrad_solver* solver) {
+  watched.store(solver);
+  // A signal that came before would otherwise be seen only after the whole solve.
+  if (pending() != 0) hrad_request_stop(solver);
+}
+
+Watch::~Watch() {
+  watched.store(nullptr);
+  // A handler on another thread may still hold the solver.
+  while (handlers_running.load() != 0) ::sched_yield();
+}
+
+}  // namespace hrad::cli::signals
