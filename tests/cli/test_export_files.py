@@ -108,23 +108,22 @@ class ExportedFiles(unittest.TestCase):
         for band in range(3):
             self.assertAlmostEqual(power[band] / self.summary["emitted"][band], 1, places=9)
 
-    def test_leaf_means_add_up_to_patch_means(self):
-        queried = json.loads(hrad("query", "cornell", "--accuracy", "0.2", "--quiet",
-                                  "--patches", "--json").stdout)
-        sums, areas = {}, {}
-        for row in self.rows:
-            patch, area = int(row[0]), float(row[12])
-            areas[patch] = areas.get(patch, 0) + area
-            so_far = sums.setdefault(patch, [0.0, 0.0, 0.0])
-            for band in range(3):
-                so_far[band] += area * float(row[13 + band])
-        patches = queried["patches"]
-        self.assertEqual(len(patches), len(sums))
-        for entry in patches:
-            patch = entry["patch"]
-            for band in range(3):
-                self.assertAlmostEqual(sums[patch][band] / areas[patch],
-                                       entry["radiosity"][band], places=9)
+    def test_leaf_means_add_up_to_the_patch_means_of_a_query(self):
+        for quantity in ("radiosity", "irradiance", "emission"):
+            queried = json.loads(hrad("query", "cornell", "--accuracy", "0.2", "--quiet",
+                                      "--patches", "--quantity", quantity, "--json").stdout)
+            powers, areas = {}, {}
+            for row, values in zip(self.rows, rows_of(self.arrays[quantity])):
+                key, area = (int(row[0]), int(row[2])), float(row[12])
+                areas[key] = areas.get(key, 0) + area
+                powers[key] = [power + area * value for power, value in
+                               zip(powers.get(key, (0, 0, 0)), values)]
+            self.assertEqual(len(queried["patches"]), len(areas))
+            for patch in queried["patches"]:
+                key = (patch["patch"], patch["side"])
+                self.assertAlmostEqual(areas[key] / patch["area"], 1, places=9)
+                for power, mean in zip(powers[key], patch["values"]):
+                    self.assertAlmostEqual(power / areas[key], mean, delta=1e-9 * (1 + mean))
 
     def test_radiosity_is_emission_and_more(self):
         for radiosity, emission in zip(rows_of(self.arrays["radiosity"]),
