@@ -1,0 +1,42 @@
+// Angles without libm, whose transcendentals differ between processors: the same bits everywhere.
+// Floor 1 (base).
+#pragma once
+
+namespace hrad {
+
+constexpr double pi = 3.14159265358979323846;
+
+// The angle in [0, pi] whose sine and cosine are in the proportion sine : cosine, sine >= 0; 0 for
+// 0 : 0. Absolute error below 1e-12. The range is halved twice until |x| <= tan(pi/8), where
+// the series of the arc tangent is cut after x^27.
+inline double angle_of(double sine, double cosine) {
+  const double magnitude = cosine < 0 ? -cosine : cosine;
+  const bool steep = sine > magnitude;
+  const double above = steep ? magnitude : sine;
+  const double below = steep ? sine : magnitude;
+  // atan(above/below) in [0, pi/4]; above tan(pi/8) turned back by pi/4.
+  const bool turned = above > 0.41421356237309503 * below;
+  const double numerator = turned ? above - below : above;
+  const double denominator = turned ? above + below : below;
+  const double x = denominator > 0 ? numerator / denominator : 0;
+  const double z = x * x;
+  double series = 1.0 / 27;
+  series = 1.0 / 25 - z * series;
+  series = 1.0 / 23 - z * series;
+  series = 1.0 / 21 - z * series;
+  series = 1.0 / 19 - z * series;
+  series = 1.0 / 17 - z * series;
+  series = 1.0 / 15 - z * series;
+  series = 1.0 / 13 - z * series;
+  series = 1.0 / 11 - z * series;
+  series = 1.0 / 9 - z * series;
+  series = 1.0 / 7 - z * series;
+  series = 1.0 / 5 - z * series;
+  series = 1.0 / 3 - z * series;
+  double angle = x * (1 - z * series);
+  if (turned) angle += pi / 4;
+  if (steep) angle = pi / 2 - angle;
+  return cosine < 0 ? pi - angle : angle;
+}
+
+}  // namespace hrad

@@ -1,0 +1,105 @@
+// Roots, lattice places and geometry of the elements. Floor 5 (hierarchy).
+#include "hierarchy/forest.h"
+
+#include <utility>
+
+namespace hrad {
+
+Node child_place(const Node& parent, int child) {
+  Node node;
+  node.surface = parent.surface;
+  node.level = static_cast<uint8_t>(parent.level + 1);
+  node.exposed = parent.exposed;
+  const int i = 2 * parent.i, j = 2 * parent.j;
+  if (!parent.inverted) {
+    node.i = static_cast<uint16_t>(i + (child == 1));
+    node.j = static_cast<uint16_t>(j + (child == 2));
+    node.inverted = child == 3;
+  } else {
+    // The corners in order are (i+1,j+1), (i,j+1), (i+1,j); the one in the middle stands upright.
+    node.i = static_cast<uint16_t>(i + (child != 1));
+    node.j = static_cast<uint16_t>(j + (child != 2));
+    node.inverted = child != 3;
+  }
+  return node;
+}
+
+Forest::Forest(const Scene& s) : scene(&s), first_surface_(s.patch_count(), -1) {
+  for (int64_t patch = 0; patch < s.patch_count(); ++patch) {
+    if (s.has(patch, patch_dropped) || s.has(patch, patch_blocker)) continue;
+    const Vec3 vector = s.triangle(patch).area_vector();
+    Surface surface;
+    surface.patch = static_cast<int32_t>(patch);
+    surface.normal = normalized(vector);
+    surface.area = length(vector) / 2;
+    first_surface_[patch] = static_cast<int32_t>(surfaces.size());
+    surfaces.push_back(surface);
+    if (!s.has(patch, patch_two_sided)) continue;
+    surface.side = 1;
+    surface.normal = -surface.normal;
+    surfaces.push_back(surface);
+  }
+  nodes.resize(surfaces.size());
+  for (size_t k = 0; k < surfaces.size(); ++k) nodes[k].surface = static_cast<int32_t>(k);
+}
+
+Triangle Forest::root_triangle(int32_t surface) const {
+  Triangle t = scene->triangle(surfaces[surface].patch);
+  if (surfaces[surface].side) std::swap(t.b, t.c);
+  return t;
+}
+
+Triangle Forest::triangle(const Node& n) const {
+  const Triangle root = root_triangle(n.surface);
+  if (n.level == 0) return root;
+  const double step = 1.0 / static_cast<double>(1 << n.level);
+  const double u = n.i * step, v = n.j * step;
+  const Vec3 ab = root.b - root.a, ac = root.c - root.a;
+  const Vec3 low = root.a + ab * u + ac * v;
+  const Vec3 du = ab * step, dv = ac * step;
+  if (!n.inverted) return {low, low + du, low + dv};
+  return {low + du + dv, low + dv, low + du};
+}
+
+NodeId Forest::root(int64_t patch, int32_t side) const {
+  const int32_t first = first_surface_[patch];
+  if (first < 0) return -1;
+  if (side == 0) return first;
+  return scene->has(patch, patch_two_sided) ? first + 1 : -1;
+}
+
+NodeId Forest::leaf_at(NodeId root, double u, double v) const {
+  NodeId id = root;
+  while (!is_leaf(id)) {
+    const Node& n = nodes[id];
+    const double scale = static_cast<double>(1 << n.level);
+    // Place within the element, measured from its first corner.
+    double x = u * scale - n.i, y = v * scale - n.j;
+    if (n.inverted) {
+      x = 1 - x;
+      y = 1 - y;
+    }
+    const int child = x > 0.5 ? 1 : y > 0.5 ? 2 : x + y < 0.5 ? 0 : 3;
+    id = n.first_child + child;
+  }
+  return id;
+}
+
+std::vector<NodeId> Forest::leaves() const {
+  std::vector<NodeId> result, stack;
+  for (NodeId root = 0; root < surface_count(); ++root) {
+    stack.push_back(root);
+    while (!stack.empty()) {
+      const NodeId id = stack.back();
+      stack.pop_back();
+      if (is_leaf(id)) {
+        result.push_back(id);
+        continue;
+      }
+      for (int child = 3; child >= 0; --child) stack.push_back(nodes[id].first_child + child);
+    }
+  }
+  return result;
+}
+
+}  // namespace hrad

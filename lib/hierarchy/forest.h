@@ -1,0 +1,74 @@
+// The hierarchy: every exchanging side of a patch is a surface, the root of a tree of elements made
+// by 4-way midpoint subdivision (paper, Section 2; Hanrahan, Saltzman, Aupperle 1991, Section 3).
+// Flat arrays, parents before children. Floor 5 (hierarchy).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/span.h"
+#include "base/vec3.h"
+#include "scene/scene.h"
+
+namespace hrad {
+
+using NodeId = int32_t;  // index into Forest::nodes; the first surface_count() nodes are the roots
+
+constexpr int max_level = 15;  // lattice coordinates of an element fit into 16 bits
+
+// One exchanging side of a patch: what a tree grows from.
+struct Surface {
+  int32_t patch = 0;
+  int32_t side = 0;  // 0 front, 1 back
+  Vec3 normal;       // towards the side the light comes from
+  double area = 0;
+};
+
+// An element. Its place in the patch is a triangle of the lattice that L subdivisions draw: with the
+// point of coordinates (i,j) at u = i/2^L, v = j/2^L, an upright one has the corners (i,j), (i+1,j),
+// (i,j+1), an inverted one (i+1,j+1), (i,j+1), (i+1,j). So a node needs no corners of its own, and
+// neighbours share exactly the same ones.
+struct Node {
+  NodeId parent = -1;
+  NodeId first_child = -1;  // the four children stand side by side; -1: a leaf
+  int32_t surface = 0;
+  uint16_t i = 0, j = 0;
+  uint8_t level = 0;
+  uint8_t inverted = 0;
+  uint16_t reserved = 0;
+  float exposed = 1;  // share of the area that is not sealed (design: the exposure rule)
+  float spread = 0;   // largest deviation of a leaf's radiosity from the node's, relative units
+};
+static_assert(sizeof(Node) <= 32, "nodes are to stay small");
+
+// The lattice place of one of the four children; 3 is the one in the middle.
+Node child_place(const Node& parent, int child);
+
+class Forest {
+ public:
+  explicit Forest(const Scene& scene);
+
+  int64_t surface_count() const { return static_cast<int64_t>(surfaces.size()); }
+  bool is_leaf(NodeId n) const { return nodes[n].first_child < 0; }
+  double area(const Node& n) const {
+    return surfaces[n.surface].area / static_cast<double>(int64_t{1} << (2 * n.level));
+  }
+  // Corners of the patch as seen from the surface's side.
+  Triangle root_triangle(int32_t surface) const;
+  Triangle triangle(const Node& n) const;
+  // The root of a side of a patch, -1 when that side exchanges nothing.
+  NodeId root(int64_t patch, int32_t side) const;
+  // The leaf of a surface that holds the point (u,v) of its root triangle.
+  NodeId leaf_at(NodeId root, double u, double v) const;
+  // All leaves in key order (patch, side, path).
+  std::vector<NodeId> leaves() const;
+
+  const Scene* scene;
+  std::vector<Surface> surfaces;  // in key order (patch, side)
+  std::vector<Node> nodes;
+
+ private:
+  std::vector<int32_t> first_surface_;  // per patch, -1 when it exchanges nothing
+};
+
+}  // namespace hrad

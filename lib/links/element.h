@@ -1,0 +1,46 @@
+// The geometry of an element, worked out once for the many links it takes part in.
+// Floor 6 (links).
+#pragma once
+
+#include "base/hash.h"
+#include "hierarchy/forest.h"
+
+namespace hrad {
+
+struct Element {
+  Triangle corners;
+  Vec3 normal, centroid;
+  double area = 0;
+  double radius = 0;   // of the sphere around the centroid that holds the corners
+  int32_t surface = 0;
+  float exposed = 1;
+};
+
+inline Element element_of(const Forest& forest, const Node& node) {
+  Element e;
+  e.corners = forest.triangle(node);
+  e.normal = forest.surfaces[node.surface].normal;
+  e.centroid = e.corners.centroid();
+  e.area = forest.area(node);
+  const Vec3 a = e.corners.a - e.centroid, b = e.corners.b - e.centroid,
+             c = e.corners.c - e.centroid;
+  double largest = dot(a, a);
+  if (dot(b, b) > largest) largest = dot(b, b);
+  if (dot(c, c) > largest) largest = dot(c, c);
+  e.radius = std::sqrt(largest);
+  e.surface = node.surface;
+  e.exposed = node.exposed;
+  return e;
+}
+
+// The name of an element, whatever the order in which elements were made.
+inline uint64_t key_of(const Forest& forest, const Node& node) {
+  const Surface& surface = forest.surfaces[node.surface];
+  const uint64_t place = (static_cast<uint64_t>(node.level) << 33) |
+                         (static_cast<uint64_t>(node.inverted) << 32) |
+                         (static_cast<uint64_t>(node.i) << 16) | node.j;
+  return mix((static_cast<uint64_t>(surface.patch) << 1) | static_cast<uint64_t>(surface.side),
+             place);
+}
+
+}  // namespace hrad

@@ -1,0 +1,82 @@
+// Form factor and visible fraction of one link, from the same sixteen pairs of points: Lambert's
+// formula where receiver and source are near each other, the sampled kernel elsewhere.
+// Floor 6 (links).
+#pragma once
+
+#include <cstdint>
+
+#include "links/element.h"
+#include "links/pair_samples.h"
+#include "visibility/exposure.h"
+#include "visibility/visibility.h"
+
+namespace hrad {
+
+// What is known of a link; grows as packets are traced.
+struct LinkEstimate {
+  double factor = 0;      // form factor without occlusion, mean over the receiver's exposed part
+  double variation = 0;   // half the range of it among the receiver's quarters
+  double mean_error = 0;  // error of its mean over the receiver, estimated
+  bool near = false;      // factor is Lambert's
+  double source_area = 0;
+  double kernel_sum = 0, visible_sum = 0;  // over the traced pairs
+  int pairs = 0;                           // traced pairs on the exposed part of the receiver
+  double visible() const { return kernel_sum > 0 ? visible_sum / kernel_sum : 0; }
+  // Form factor times visible fraction.
+  double weight() const { return factor * visible(); }
+};
+
+// A packet under way: the drawn pairs and which of them end on exposed points.
+struct DrawnPairs {
+  PairSamples samples;
+  uint32_t receiver_exposed = all_pairs, source_exposed = all_pairs;
+};
+
+// One for each worker.
+class LinkSampler {
+ public:
+  // near_ratio: below this (receiver radius + source radius) / distance the kernel is sampled.
+  LinkSampler(const Forest& forest, const VisibilityEngine& engine, const Exposure& exposure,
+              uint64_t seed, double near_ratio)
+      : forest_(forest), engine_(engine), exposure_(exposure), seed_(seed),
+        near_ratio_(near_ratio) {}
+
+  // The unoccluded form factor; draws the first packet's pairs on the way.
+  void begin(const Element& receiver, const Element& source, uint64_t key, DrawnPairs& drawn,
+             LinkEstimate& estimate) const;
+
+  // Adds the outcome of tracing the pairs of `lanes`: bit k of blocked: pair k is blocked.
+  void add(const DrawnPairs& drawn, uint32_t lanes, uint32_t blocked,
+           LinkEstimate& estimate);
+
+  // Traces a whole packet of the drawn pairs and adds it.
+  void trace(const DrawnPairs& drawn, LinkEstimate& estimate);
+
+  // Draws and traces further packets until `packets` are in the estimate, the first included.
+  void trace_more(const Element& receiver, const Element& source, uint64_t key, int packets,
+                  LinkEstimate& estimate);
+
+  // Share of the element that is exposed, from its sixteen spread points.
+  float exposed_share(const Node& place) const;
+
+  // Rays traced so far (those that add() was given included).
+  int64_t rays() const { return rays_; }
+
+  uint64_t link_key(uint64_t receiver_key, uint64_t source_key) const {
+    return mix(receiver_key, source_key, seed_);
+  }
+
+ private:
+  void draw(const Element& receiver, const Element& source, uint64_t key,
+            DrawnPairs& drawn) const;
+  uint32_t exposed_mask(const Element& element, uint64_t key, bool as_receiver) const;
+
+  const Forest& forest_;
+  const VisibilityEngine& engine_;
+  const Exposure& exposure_;
+  uint64_t seed_;
+  double near_ratio_;
+  int64_t rays_ = 0;
+};
+
+}  // namespace hrad

@@ -1,0 +1,73 @@
+// The two oracles. The error-driven one gives every link a share of the error that is proportional
+// to the light it carries: with v the relative error of a link and s = weight * brightness its share
+// of the irradiance, links of independent errors add up to a variance of sum (v s)^2, so v^2 s below
+// a constant keeps that sum below the constant times the irradiance, however finely a source is
+// split. Floor 6 (links).
+#include "links/oracle.h"
+
+#include <algorithm>
+
+namespace hrad {
+namespace {
+
+// With sixteen rays a visible fraction that is not zero is at least a sixteenth.
+constexpr double least_visible = 1.0 / 16;
+
+// An error over a whole element counts less for its patch the smaller the element is, and for the
+// root mean square over points likewise.
+double mean_share(const LinkLoad& load) { return load.receiver_area / load.patch_area; }
+double point_share(const OracleSettings& s, const LinkLoad& load) {
+  return std::min(1.0, load.receiver_area / s.point_area);
+}
+
+}  // namespace
+
+bool surely_good(const OracleSettings& s, const LinkLoad& load) {
+  if (s.kind == OracleKind::energy) return load.power <= s.power;
+  const double carried = load.weight * load.brightness / least_visible;
+  return carried * mean_share(load) <= s.mean_variance &&
+         carried * point_share(s, load) <= s.point_variance;
+}
+
+Decision judge_energy(const OracleSettings& s, const LinkLoad& load) {
+  if (load.power <= s.power) return Decision::keep;
+  // The larger of the two is refined; a source without elements of its own can't be.
+  if (load.source_area > load.receiver_area && load.may_descend) return Decision::descend_source;
+  if (load.may_split) return Decision::split_receiver;
+  return load.may_descend ? Decision::descend_source : Decision::keep;
+}
+
+Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEstimate& e,
+                     double size_ratio) {
+  const double carried = load.weight * load.brightness;
+  const double hidden = std::max(0.0, e.factor - load.weight) * load.brightness;
+  const double relative = e.factor > 0 ? e.variation / e.factor : 0;
+  const double quadrature = e.factor > 0 ? e.mean_error / e.factor : 0;
+  // Variation over the receiver: of the kernel, and of what is seen of the source.
+  const double at_points = (carried * relative * relative + hidden) * point_share(s, load);
+  const double in_mean =
+      (carried * quadrature * quadrature + hidden / (16 * s.most_packets)) * mean_share(load);
+  if (load.may_split && (at_points > s.point_variance || in_mean > s.mean_variance))
+    return Decision::split_receiver;
+  if (load.may_descend && load.brightness > 0) {
+    // An uneven source matters as far as the kernel or the view of it is uneven across it.
+    const double uneven = load.source_spread / load.brightness;
+    const double skew = std::min(1.0, size_ratio * size_ratio) +
+                        (carried > 0 ? std::min(1.0, hidden / carried) : 1.0);
+    if (carried * uneven * uneven * std::min(1.0, skew) * mean_share(load) > s.mean_variance)
+      return Decision::descend_source;
+  }
+  return Decision::keep;
+}
+
+int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEstimate& e) {
+  const double visible = e.visible();
+  // Nothing seen by n rays means below about 1/n, not darkness.
+  const double variance = visible > 0 ? visible * (1 - visible) : 1.0 / 16;
+  if (variance <= 0) return 1;
+  const double error = e.factor * load.brightness * variance * mean_share(load);
+  const double wanted = error / (16 * s.mean_variance);
+  return std::max(1, std::min(s.most_packets, static_cast<int>(wanted) + 1));
+}
+
+}  // namespace hrad

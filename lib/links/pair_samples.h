@@ -1,0 +1,34 @@
+// Sixteen pairs of points, one on the receiver and one on the source of a link, with the kernel of
+// the radiosity equation between them and the segments that test their visibility: form factor and
+// visible fraction come from the same pairs. Floor 6 (links).
+#pragma once
+
+#include <cstdint>
+
+#include "links/element.h"
+#include "visibility/visibility.h"
+
+namespace hrad {
+
+constexpr uint32_t all_pairs = 0xffff;
+// One pair in each quarter of the receiver and each quarter of the source.
+constexpr uint32_t quick_pairs = 0x1111;
+
+struct PairSamples {
+  SegmentPacket packet;    // pairs 4q .. 4q+3 start in quarter q of the receiver
+  float kernel[16];        // cos * cos' / (pi d^2 + A_s/16), in 1/unit^2; 0 behind a horizon
+};
+
+// Draws the pairs from the key's hash: stratified on both sides, so that every quarter of the
+// receiver meets every quarter of the source. center, offset: VisibilityEngine's.
+void draw_pairs(const Element& receiver, const Element& source, uint64_t key, Vec3 center,
+                double offset, PairSamples& samples);
+
+// The points of pair k on the receiver and on the source (u, v of Triangle::at), as draw_pairs takes
+// them for this key.
+void pair_points(uint64_t key, int k, double receiver_uv[2], double source_uv[2]);
+
+// (u,v) of point k of 16 spread over a triangle, one in each of its sixteenths.
+void spread_point(uint64_t key, int k, double uv[2]);
+
+}  // namespace hrad

@@ -1,0 +1,111 @@
+// Tasks, passes and the numbering of new elements. Floor 7 (stages).
+#include "stages/refine.h"
+
+#include <memory>
+#include <utility>
+
+#include "stages/subtree_refiner.h"
+
+namespace hrad {
+namespace {
+
+// A receiver subtree with more links than this is cut into its children's.
+constexpr int64_t most_links_of_a_task = 20000;
+
+struct Task {
+  NodeId root;
+  std::vector<Link> arriving;
+};
+
+// Links of every node and all below it.
+std::vector<int64_t> subtree_links(const State& state) {
+  std::vector<int64_t> count(state.forest.nodes.size());
+  for (size_t k = 0; k < count.size(); ++k) count[k] = state.links[k].count();
+  for (size_t k = count.size(); k-- > 0;) {
+    const NodeId parent = state.forest.nodes[k].parent;
+    if (parent >= 0) count[parent] += count[k];
+  }
+  return count;
+}
+
+// Gives the new elements of a task their numbers and puts the runs of links in place.
+void store(State& state, SubtreeResult& result, std::vector<Task>& next) {
+  Forest& forest = state.forest;
+  std::vector<NodeId> id(result.nodes.size());
+  for (size_t at = 0; at < result.nodes.size(); ++at) {
+    SubtreeNode& node = result.nodes[at];
+    if (node.old_id >= 0) {
+      id[at] = node.old_id;
+    } else {
+      id[at] = static_cast<NodeId>(forest.nodes.size());
+      Node made = node.place;
+      made.parent = id[node.parent];
+      made.first_child = -1;
+      forest.nodes.push_back(made);
+      state.links.emplace_back();
+      const size_t from = static_cast<size_t>(made.parent) * state.bands;
+      for (int band = 0; band < state.bands; ++band) {
+        state.radiosity.push_back(state.radiosity[from + band]);
+        state.irradiance.push_back(state.irradiance[from + band]);
+        state.gathered.push_back(0);
+      }
+    }
+    if (!(result.handed_on && at > 0)) state.links[id[at]] = std::move(node.run);
+  }
+  for (size_t at = 0; at < result.nodes.size(); ++at) {
+    const SubtreeNode& node = result.nodes[at];
+    if (node.first_child < 0) continue;
+    Node& parent = forest.nodes[id[at]];
+    parent.first_child = id[node.first_child];
+    float exposed = 0;
+    for (int child = 0; child < 4; ++child)
+      exposed += forest.nodes[parent.first_child + child].exposed;
+    parent.exposed = exposed / 4;
+  }
+  if (result.handed_on)
+    for (int child = 0; child < 4; ++child) {
+      const int32_t at = result.nodes[0].first_child + child;
+      next.push_back({id[at], std::move(result.nodes[at].arriving)});
+    }
+}
+
+}  // namespace
+
+bool refine_links(State& state, const StageTools& tools, const Brightness& brightness) {
+  std::vector<Task> tasks(state.forest.surface_count());
+  for (size_t k = 0; k < tasks.size(); ++k) tasks[k].root = static_cast<NodeId>(k);
+  const int64_t surfaces = state.forest.surface_count();
+  int64_t finished = 0;
+  while (!tasks.empty()) {
+    const std::vector<int64_t> weight = subtree_links(state);
+    std::vector<SubtreeResult> results(tasks.size());
+    std::vector<std::unique_ptr<SubtreeRefiner>> refiners(tools.team.size());
+    for (auto& refiner : refiners)
+      refiner = std::make_unique<SubtreeRefiner>(state, tools, brightness);
+    const bool going_on = tools.team.for_each(
+        static_cast<int64_t>(tasks.size()),
+        [&](int64_t k, int worker) {
+          const Task& task = tasks[k];
+          const int64_t work = weight[task.root] + static_cast<int64_t>(task.arriving.size());
+          results[k] = refiners[worker]->refine(task.root, task.arriving,
+                                                work > most_links_of_a_task);
+        },
+        [&](int64_t done) {
+          // Later passes are small beside the first. They are always carried to their end: nothing
+          // may be left of a round half done.
+          if (finished > 0) return true;
+          return tools.progress(static_cast<double>(done) / static_cast<double>(surfaces));
+        });
+    if (!going_on) return false;
+    std::vector<Task> next;
+    for (SubtreeResult& result : results) {
+      state.rays += result.rays;
+      store(state, result, next);
+    }
+    finished += static_cast<int64_t>(tasks.size());
+    tasks = std::move(next);
+  }
+  return true;
+}
+
+}  // namespace hrad

@@ -1,0 +1,26 @@
+// Sweeping (paper, Section 2; push-pull in Hanrahan, Saltzman, Aupperle 1991): irradiance is pushed
+// down to the leaves, their radiosity B = E + rho H pulled up again. Floor 7 (stages).
+#pragma once
+
+#include "stages/state.h"
+
+namespace hrad {
+
+// From state.gathered makes state.irradiance and state.radiosity of every node. Means are over the
+// exposed part; a node sealed all over has B = E and H = 0.
+void push_pull(State& state, ThreadTeam& team);
+
+// B = E, H = 0 everywhere: where every solve starts.
+void reset_to_emission(State& state);
+
+// The radiosity transported: irradiance times exposed area over all leaves, per band, W. Added up
+// per surface in key order.
+std::vector<double> transported(const State& state, ThreadTeam& team);
+
+// Units and brightness of the nodes, and Node::spread, from the present radiosity.
+Brightness measure_brightness(State& state, ThreadTeam& team);
+
+// Before there is any irradiance: emitters by emission, the rest by the scene's mean interreflection.
+Brightness expected_brightness(const State& state);
+
+}  // namespace hrad

@@ -1,0 +1,148 @@
+// Finding what may seal a patch once, and testing points against it. Floor 4 (visibility).
+#include "visibility/exposure.h"
+
+#include <algorithm>
+
+#include "base/hash.h"
+#include "visibility/box_tree.h"
+
+namespace hrad {
+namespace {
+
+// Surfaces closer than this share of the scene's radius are pressed against each other.
+constexpr double contact_distance = 1e-6;
+
+Box grown(Box box, double by) {
+  const Vec3 margin{by, by, by};
+  return {box.low - margin, box.high + margin};
+}
+
+Box box_of(const Triangle& t) {
+  Box box;
+  box.grow(t.a);
+  box.grow(t.b);
+  box.grow(t.c);
+  return box;
+}
+
+bool same_corners(const Triangle& a, const Triangle& b) {
+  const auto among = [&](Vec3 p) {
+    for (Vec3 q : {b.a, b.b, b.c})
+      if (p.x == q.x && p.y == q.y && p.z == q.z) return true;
+    return false;
+  };
+  return among(a.a) && among(a.b) && among(a.c);
+}
+
+// The point lies over the triangle, seen along its normal (length 1).
+bool over(const Triangle& t, Vec3 normal, Vec3 p) {
+  return dot(cross(t.b - t.a, p - t.a), normal) >= 0 &&
+         dot(cross(t.c - t.b, p - t.b), normal) >= 0 &&
+         dot(cross(t.a - t.c, p - t.c), normal) >= 0;
+}
+
+// A cosine direction for inside_solid: any spread of directions serves.
+Vec3 slanted(Vec3 normal, uint64_t hash) {
+  const Vec3 noise{unit_interval(mix(hash, 1)) - 0.5, unit_interval(mix(hash, 2)) - 0.5,
+                   unit_interval(mix(hash, 3)) - 0.5};
+  return normalized(normal + noise * 0.9);
+}
+
+}  // namespace
+
+Exposure::Exposure(const Scene& scene, const VisibilityEngine& engine)
+    : scene_(scene), engine_(engine), solids_(find_solids(scene)) {
+  const int64_t patches = scene.patch_count();
+  const double contact = contact_distance * engine.radius();
+  std::vector<Box> boxes(patches);
+  for (int64_t p = 0; p < patches; ++p)
+    if (!scene.has(p, patch_dropped)) boxes[p] = box_of(scene.triangle(p));
+  const BoxTree patch_tree(boxes);
+  std::vector<Box> solid_boxes = solids_.box;
+  for (size_t k = 0; k < solid_boxes.size(); ++k)
+    if (!solids_.closed[k] || solids_.volume[k] <= 0) solid_boxes[k] = Box{};
+  const BoxTree solid_tree(solid_boxes);
+
+  first_cover_.push_back(0);
+  first_enclosing_.push_back(0);
+  for (int64_t p = 0; p < patches; ++p) {
+    const Triangle triangle = scene.triangle(p);
+    const Vec3 front = normalized(triangle.area_vector());
+    for (int32_t side = 0; side < 2; ++side) {
+      const bool exchanges = !scene.has(p, patch_dropped) && !scene.has(p, patch_blocker) &&
+                             (side == 0 || scene.has(p, patch_two_sided));
+      if (exchanges) {
+        const Vec3 normal = side ? -front : front;
+        const Box reach = grown(boxes[p], contact);
+        const auto cover_begin = static_cast<std::ptrdiff_t>(covers_.size());
+        patch_tree.overlapping(reach, [&](int32_t q) {
+          if (q == p) return;
+          const Triangle other = scene.triangle(q);
+          const Vec3 other_normal = normalized(other.area_vector());
+          // A cover turns its front against this side; a two-sided one has a front both ways.
+          const double facing = dot(other_normal, normal);
+          if (facing > -0.999999 && !(scene.has(q, patch_two_sided) && facing > 0.999999)) return;
+          if (same_corners(triangle, other)) return;  // a sheet, not a contact
+          for (Vec3 corner : {other.a, other.b, other.c})
+            if (std::fabs(dot(corner - triangle.a, normal)) > contact) return;
+          covers_.push_back(q);
+        });
+        std::sort(covers_.begin() + cover_begin, covers_.end());
+        const auto solid_begin = static_cast<std::ptrdiff_t>(enclosing_.size());
+        solid_tree.overlapping(grown(boxes[p], engine.offset()), [&](int32_t solid) {
+          if (solid != solids_.component[p]) enclosing_.push_back(solid);
+        });
+        std::sort(enclosing_.begin() + solid_begin, enclosing_.end());
+      }
+      first_cover_.push_back(static_cast<int64_t>(covers_.size()));
+      first_enclosing_.push_back(static_cast<int64_t>(enclosing_.size()));
+    }
+  }
+}
+
+Exposure::~Exposure() = default;
+
+bool Exposure::can_be_sealed(int64_t patch, int32_t side) const {
+  const int64_t k = 2 * patch + side;
+  return first_cover_[k] < first_cover_[k + 1] || first_enclosing_[k] < first_enclosing_[k + 1];
+}
+
+bool Exposure::pressed(int64_t patch, int32_t side, Vec3 point) const {
+  const int64_t k = 2 * patch + side;
+  for (int64_t c = first_cover_[k]; c < first_cover_[k + 1]; ++c) {
+    const Triangle cover = scene_.triangle(covers_[c]);
+    if (over(cover, normalized(cover.area_vector()), point)) return true;
+  }
+  return false;
+}
+
+bool Exposure::inside_solid(int64_t patch, int32_t side, Vec3 point) const {
+  const int64_t k = 2 * patch + side;
+  const Vec3 front = normalized(scene_.triangle(patch).area_vector());
+  const Vec3 normal = side ? -front : front;
+  const Vec3 origin = point + normal * engine_.offset();
+  bool in_a_box = false;
+  for (int64_t c = first_enclosing_[k]; c < first_enclosing_[k + 1]; ++c) {
+    const Box& box = solids_.box[enclosing_[c]];
+    in_a_box = in_a_box || (origin.x > box.low.x && origin.x < box.high.x &&
+                            origin.y > box.low.y && origin.y < box.high.y &&
+                            origin.z > box.low.z && origin.z < box.high.z);
+  }
+  if (!in_a_box) return false;
+  // Inside means: the nearest surface shows its back, and it bounds a solid. Most of three rays, so
+  // that one that slips through an edge decides nothing.
+  int inside = 0;
+  for (uint64_t ray = 0; ray < 3; ++ray) {
+    const Hit hit = engine_.nearest(origin, slanted(normal, mix(ray, 0x736f6c69u)), 0);
+    if (hit.patch < 0 || !hit.back) continue;
+    const int32_t solid = solids_.component[hit.patch];
+    inside += solid >= 0 && solids_.closed[solid] && solids_.volume[solid] > 0;
+  }
+  return inside >= 2;
+}
+
+bool Exposure::sealed(int64_t patch, int32_t side, Vec3 point) const {
+  return pressed(patch, side, point) || inside_solid(patch, side, point);
+}
+
+}  // namespace hrad

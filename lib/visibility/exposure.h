@@ -1,0 +1,41 @@
+// The exposure rule: which points of a patch are sealed, pressed against another surface or inside a
+// closed solid, so that no light gets in or out. A partly sealed element averages darkness into what
+// others see of it unless its exposed part is kept apart. Floor 4 (visibility).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "scene/scene.h"
+#include "scene/solids.h"
+#include "visibility/visibility.h"
+
+namespace hrad {
+
+class Exposure {
+ public:
+  // Scene, engine must outlive this.
+  Exposure(const Scene& scene, const VisibilityEngine& engine);
+  ~Exposure();
+
+  // False: no point of this side can be sealed, and sealed() need not be asked.
+  bool can_be_sealed(int64_t patch, int32_t side) const;
+
+  // The point (in the scene's coordinates, on the patch) is sealed on this side. Any thread.
+  bool sealed(int64_t patch, int32_t side, Vec3 point) const;
+
+ private:
+  bool pressed(int64_t patch, int32_t side, Vec3 point) const;
+  bool inside_solid(int64_t patch, int32_t side, Vec3 point) const;
+
+  const Scene& scene_;
+  const VisibilityEngine& engine_;
+  Solids solids_;
+  // For every side of a patch (2*patch+side) its run of covers_ and of enclosing_.
+  std::vector<int64_t> first_cover_, first_enclosing_;
+  std::vector<int32_t> covers_;     // patches pressed against it
+  std::vector<int32_t> enclosing_;  // solids whose box it reaches into
+};
+
+}  // namespace hrad
