@@ -6,6 +6,23 @@
 #include "exit_code.h"
 
 namespace hrad::cli {
+namespace {
+
+// CLI11's help without its remarks on which options exclude which.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    column_width(36);
+    label("Positionals", "Arguments");
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string& text = option->get_option_text();
+    return text.empty() ? "" : " " + text;
+  }
+  std::string make_footer(const CLI::App* app) const override { return app->get_footer() + "\n"; }
+};
+
+}  // namespace
 
 struct Arguments::Parser {
   explicit Parser(const std::string& command, const std::string& summary)
@@ -24,7 +41,7 @@ Arguments::Arguments(const std::string& command, const std::string& summary,
     : parser_(std::make_unique<Parser>(command, summary)) {
   CLI::App& app = parser_->app;
   app.set_help_flag("-h,--help", "Print this help and exit");
-  app.get_formatter()->column_width(36);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer(notes);
 }
 
@@ -73,8 +90,17 @@ bool Arguments::parse(const std::vector<std::string>& arguments, std::string* he
   try {
     parser_->app.parse(reversed);
   } catch (const CLI::CallForHelp&) {
-    *help_text = parser_->app.help();
+    // CLI11 leaves a second blank line where a group without a name would stand.
+    *help_text = CLI::detail::find_and_replace(parser_->app.help(), "\n\n\n", "\n\n");
     return false;
+  } catch (const CLI::ExtrasError&) {
+    fail_usage(parser_->command, "unexpected argument '" + parser_->app.remaining().front() + "'");
+  } catch (const CLI::ArgumentMismatch& error) {
+    // CLI11 counts, in words that depend on the option's kind.
+    const std::string text = error.what();
+    const bool missing = text.find("missing") != std::string::npos;
+    fail_usage(parser_->command, text.substr(0, text.find(':')) +
+                                     (missing ? " needs a value" : " is given more than once"));
   } catch (const CLI::ParseError& error) {
     fail_usage(parser_->command, error.what());
   }

@@ -12,11 +12,15 @@ const char* type_name(const hrad_param& row) {
   return row.type == HRAD_PARAM_INT ? "int" : row.type == HRAD_PARAM_DOUBLE ? "double" : "text";
 }
 
-bool has_range(const hrad_param& row) { return row.type != HRAD_PARAM_TEXT; }
+// A limit of whole numbers in all its digits.
+std::string limit_text(const hrad_param& row, double limit) {
+  return row.type == HRAD_PARAM_INT ? std::to_string(static_cast<int64_t>(limit))
+                                    : real_text(limit);
+}
 
 std::string allowed_text(const hrad_param& row) {
-  if (!has_range(row)) return row.choices != nullptr ? row.choices : "any text";
-  return real_text(row.minimum) + " .. " + real_text(row.maximum);
+  if (row.type == HRAD_PARAM_TEXT) return row.choices != nullptr ? row.choices : "any text";
+  return limit_text(row, row.minimum) + " .. " + limit_text(row, row.maximum);
 }
 
 void append_table(std::string* text, const std::vector<hrad_param>& rows) {
@@ -37,7 +41,10 @@ void append_json(std::string* text, const std::vector<hrad_param>& rows) {
     json.field("name", row.name);
     json.field("type", type_name(row));
     json.field("default", row.default_text);
-    if (has_range(row)) {
+    if (row.type == HRAD_PARAM_INT) {
+      json.field("minimum", static_cast<int64_t>(row.minimum));
+      json.field("maximum", static_cast<int64_t>(row.maximum));
+    } else if (row.type == HRAD_PARAM_DOUBLE) {
       json.field("minimum", row.minimum);
       json.field("maximum", row.maximum);
     } else if (row.choices != nullptr) {

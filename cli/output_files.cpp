@@ -26,10 +26,20 @@ constexpr Format formats[] = {
     {".hrad", OutputFiles::results, false}, {".obj", OutputFiles::scenes, true},
 };
 
+std::string name_of(const std::string& path) {
+  return path.substr(path.find_last_of('/') + 1);  // npos + 1 is 0
+}
+
+std::string folder_of(const std::string& path) {
+  const size_t slash = path.find_last_of('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
 std::string ending_of(const std::string& path) {
-  const size_t name = path.find_last_of('/') + 1;  // npos + 1 is 0
-  const size_t dot = path.find_last_of('.');
-  return dot == std::string::npos || dot < name ? "" : path.substr(dot);
+  const std::string name = name_of(path);
+  const size_t dot = name.find_last_of('.');
+  return dot == std::string::npos ? "" : name.substr(dot);
 }
 
 std::string known_endings(OutputFiles::Kind kind) {
@@ -72,10 +82,7 @@ void check_place(const std::string& path) {
     if (S_ISDIR(status.st_mode)) fail_to_write(path, "it is a directory");
     if (::access(path.c_str(), W_OK) != 0) fail_to_write(path, std::strerror(errno));
   }
-  const size_t slash = path.find_last_of('/');
-  const std::string folder = slash == std::string::npos ? "."
-                             : slash == 0               ? "/"
-                                                        : path.substr(0, slash);
+  const std::string folder = folder_of(path);
   if (::stat(folder.c_str(), &status) != 0)
     fail_to_write(path, "directory '" + folder + "': " + std::strerror(errno));
   if (!S_ISDIR(status.st_mode)) fail_to_write(path, "'" + folder + "' is not a directory");
@@ -84,11 +91,19 @@ void check_place(const std::string& path) {
 }
 
 bool same_file(const std::string& one, const std::string& other) {
-  if (one == other) return true;
   struct stat a {
   }, b{};
-  return ::stat(one.c_str(), &a) == 0 && ::stat(other.c_str(), &b) == 0 && a.st_dev == b.st_dev &&
-         a.st_ino == b.st_ino;
+  const bool one_exists = ::stat(one.c_str(), &a) == 0;
+  const bool other_exists = ::stat(other.c_str(), &b) == 0;
+  if (!one_exists && !other_exists) {
+    // What is not there yet is the same when its directory and its name are.
+    if (name_of(one) != name_of(other) || ::stat(folder_of(one).c_str(), &a) != 0 ||
+        ::stat(folder_of(other).c_str(), &b) != 0)
+      return one == other;
+  } else if (!one_exists || !other_exists) {
+    return false;
+  }
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 }  // namespace

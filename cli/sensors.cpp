@@ -39,6 +39,7 @@ std::string read_line(std::string_view line, std::vector<double>* numbers) {
   while (!line.empty()) {
     size_t length = 0;
     while (length < line.size() && !is_blank(line[length]) && line[length] != ',') ++length;
+    if (length == 0) return "a number is missing before a comma";
     double number = 0;
     if (!read_real(line.substr(0, length), &number))
       return "'" + std::string(line.substr(0, length)) + "' is not a number";

@@ -17,6 +17,7 @@ std::atomic<int> first_signal{0};
 std::atomic<int> urgent_signals{0};  // SIGINT and SIGTERM so far
 std::atomic<int> handlers_running{0};
 std::atomic<hrad_solver*> watched{nullptr};
+bool line_may_stand = false;  // stderr is a terminal: a progress line may stand there
 
 static_assert(std::atomic<int>::is_always_lock_free &&
                   std::atomic<hrad_solver*>::is_always_lock_free,
@@ -24,7 +25,11 @@ static_assert(std::atomic<int>::is_always_lock_free &&
 
 void handle(int number) {
   handlers_running.fetch_add(1);
-  if (number != SIGUSR1 && urgent_signals.fetch_add(1) > 0) ::_exit(exit_signal + number);
+  if (number != SIGUSR1 && urgent_signals.fetch_add(1) > 0) {
+    const ssize_t written = line_may_stand ? ::write(STDERR_FILENO, "\n", 1) : 0;
+    static_cast<void>(written);  // there is nowhere to complain
+    ::_exit(exit_signal + number);
+  }
   int none = 0;
   first_signal.compare_exchange_strong(none, number);
   hrad_request_stop(watched.load());
@@ -34,6 +39,7 @@ void handle(int number) {
 }  // namespace
 
 void install() {
+  line_may_stand = ::isatty(STDERR_FILENO) != 0;
   struct sigaction action {};
   action.sa_handler = handle;
   action.sa_flags = SA_RESTART;

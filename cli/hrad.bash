@@ -1,0 +1,76 @@
+# Completion of hrad for bash: commands, their options, parameter names and the words they take.
+# A test compares the lists with `hrad --help`, `hrad COMMAND --help` and `hrad params`.
+
+_hrad_commands='solve export query info scene machine params'
+_hrad_run_options='--help --accuracy --threads --set --two-sided --flip --mpi --quiet --verbose'
+_hrad_params='bands accuracy linking oracle bf_epsilon min_area tolerance max_iterations refine seed
+  unit visibility sides threads smt bind partition max_memory instruction_set'
+
+_hrad_options() {  # of a command
+  case $1 in
+    solve) echo "$_hrad_run_options --output --json" ;;
+    export) echo "$_hrad_run_options --output" ;;
+    query)
+      echo "$_hrad_run_options --patches --at --sensors --grid --quantity --json --csv" ;;
+    info | machine) echo "$_hrad_run_options --json" ;;
+    scene) echo '--help --output --list' ;;
+    params) echo '--help --json' ;;
+    *) echo '--help --version' ;;
+  esac
+}
+
+_hrad_words() {  # those of the list $1 that begin with $2
+  mapfile -t COMPREPLY < <(compgen -W "$1" -- "$2")
+}
+
+_hrad_files() {  # directories, and files whose ending is in the pattern $1, that begin with $2
+  local files
+  mapfile -t files < <(compgen -f -- "$2" | grep -E "\.($1)\$")
+  mapfile -t COMPREPLY < <(compgen -d -S / -- "$2")
+  COMPREPLY+=("${files[@]}")
+  compopt -o nospace 2>/dev/null
+}
+
+_hrad() {
+  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
+  local command=${COMP_WORDS[1]}
+  COMPREPLY=()
+  if ((COMP_CWORD == 1)); then
+    _hrad_words "$_hrad_commands --help --version" "$word"
+    return
+  fi
+  case $previous in
+    --set)
+      _hrad_words "$(printf '%s= ' $_hrad_params)" "$word"
+      compopt -o nospace 2>/dev/null
+      return
+      ;;
+    --mpi) _hrad_words 'on off auto' "$word"; return ;;
+    --quantity) _hrad_words 'radiosity irradiance emission net_flux' "$word"; return ;;
+    --sensors) mapfile -t COMPREPLY < <(compgen -f -- "$word"); return ;;
+    -o | --output)
+      if [[ $command == scene ]]; then
+        _hrad_files 'obj' "$word"
+      else
+        _hrad_files 'csv|vtu' "$word"
+      fi
+      return
+      ;;
+    --accuracy | --threads | --at | --grid) return ;;
+  esac
+  if [[ $word == -* ]]; then
+    _hrad_words "$(_hrad_options "$command")" "$word"
+    return
+  fi
+  case $command in
+    solve | export | query | info)
+      _hrad_files 'obj' "$word"
+      local files=("${COMPREPLY[@]}")
+      _hrad_words "$(hrad scene --list 2>/dev/null)" "$word"
+      if ((${#files[@]} == 0)); then compopt +o nospace 2>/dev/null; fi
+      COMPREPLY+=("${files[@]}")
+      ;;
+    scene) _hrad_words "$(hrad scene --list 2>/dev/null)" "$word" ;;
+  esac
+}
+complete -F _hrad hrad
