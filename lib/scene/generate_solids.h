@@ -1,0 +1,47 @@
+// Boxes on an integer grid: the bricks of the built-in scenes. Each is a closed manifold of its
+// own. Floor 3 (scene).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace hrad {
+
+// In millimetres. Equal integers give equal coordinates, so that faces meant to touch do.
+struct Point {
+  int32_t x = 0, y = 0, z = 0;
+  int32_t operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+};
+inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+Vec3 metres(Point p);
+
+// Where a piece of furniture stands: turned about z by quarter turns (anticlockwise seen from
+// above), then moved to `origin`.
+struct Place {
+  Point origin;
+  int quarter_turns = 0;  // 0..3
+  Point operator()(Point local) const;
+  // The place of something that stands at `local` of this one.
+  Place at(Point local, int more_quarter_turns = 0) const {
+    return {(*this)(local), (quarter_turns + more_quarter_turns) % 4};
+  }
+};
+
+// One material for each face, in the order -x +x -y +y -z +z.
+using BoxMaterials = std::array<int32_t, 6>;
+BoxMaterials all_faces(int32_t material);
+
+// 12 triangles with fronts outward.
+void add_box(Scene& scene, Point low, Point high, const BoxMaterials& materials);
+void add_box(Scene& scene, const Place& place, Point low, Point high, int32_t material);
+
+// 12 triangles with fronts inward: a closed room.
+void add_room(Scene& scene, Point low, Point high, const BoxMaterials& materials);
+
+// A closed box that shines through its bottom.
+void add_lamp(Scene& scene, Point low, Point high, int32_t housing, int32_t light);
+
+}  // namespace hrad
