@@ -1,0 +1,57 @@
+# What the tests of the command-line tool share: sourced, never run. HRAD is the tool.
+set -u
+: "${HRAD:?the path of the tool}" "${HRAD_SOURCE_DIR:?the path of the sources}"
+work=$(mktemp -d)
+trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+complain() {
+  echo "FAILED: $*" >&2
+  failures=$((failures + 1))
+}
+
+# run ARGUMENTS...: the tool; its exit code in $code, what it said in the files out and err.
+run() {
+  ran="hrad $*"
+  "$HRAD" "$@" >out 2>err </dev/null
+  code=$?
+}
+
+# refuses CODE TEXT ARGUMENTS...: ends with the code, says the text on stderr and nothing on stdout.
+refuses() {
+  local wanted=$1 text=$2
+  shift 2
+  run "$@"
+  [ "$code" = "$wanted" ] || complain "$ran: exit code $code, not $wanted: $(cat err)"
+  [ -s out ] && complain "$ran: output on stdout though it failed"
+  grep -qF -- "$text" err || complain "$ran: stderr lacks '$text': $(cat err)"
+  grep -qv '^hrad: ' err && complain "$ran: a line on stderr without 'hrad: ': $(cat err)"
+}
+
+# works ARGUMENTS...: ends with 0.
+works() {
+  run "$@"
+  [ "$code" = 0 ] || complain "$ran: exit code $code: $(cat err)"
+}
+
+# says TEXT: the last output has it.
+says() {
+  grep -qF -- "$1" out || complain "$ran: stdout lacks '$1': $(head -c 2000 out)"
+}
+
+# holds EXPRESSION: a Python expression over the last output as JSON, named j, is true.
+holds() {
+  python3 - "$1" <<'PYTHON' || complain "$ran: not so: $1"
+import json, math, sys
+def refuse(name):
+    raise ValueError(name + " in JSON")
+with open("out", encoding="utf-8") as file:
+    j = json.load(file, parse_constant=refuse)
+sys.exit(0 if eval(sys.argv[1]) else 1)
+PYTHON
+}
+
+finish() {
+  [ "$failures" = 0 ] || { echo "$failures failed" >&2; exit 1; }
+}
