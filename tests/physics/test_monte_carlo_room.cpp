@@ -7,14 +7,14 @@ using namespace physics;
 
 namespace {
 
-constexpr int64_t kPatchPaths = 4000000, kPoints = 10000;
+constexpr int64_t kPatchPaths = 8000000, kPoints = 10000;
 
 void accuracy_is_kept() {
   ApiSolver loaded;
   loaded.make("furnished-room");
   const MonteCarlo reference(loaded.surfaces(), 20240607);
   const PatchReference patches(reference, kPatchPaths);
-  const PointReference points(reference, kPoints, 8, 16, 99);
+  const PointReference points(reference, kPoints, 8, 48, 99);
   for (double accuracy : {0.05, 0.02}) {
     ApiSolver solver;
     solver.make("furnished-room");
