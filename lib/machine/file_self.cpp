@@ -1,4 +1,4 @@
-// Whole files of one process: temporary, checked writes, fsync, rename. Floor 2 (machine).
+// Files of one process. Writing: temporary, checked writes, fsync, rename. Floor 2 (machine).
 #include "machine/file_self.h"
 
 #include <fcntl.h>
@@ -109,6 +109,39 @@ void WholeFile::commit() {
   if (folder < 0) return;
   ::fsync(folder);
   ::close(folder);
+}
+
+bool read_file(const std::string& path, std::string& content) {
+  struct Descriptor {
+    int file;
+    ~Descriptor() {
+      if (file >= 0) ::close(file);
+    }
+  };
+  // Without O_NONBLOCK, opening a pipe would wait for a writer.
+  const Descriptor in{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
+  if (in.file < 0 && (errno == ENOENT || errno == ENOTDIR)) return false;
+  struct stat status;
+  if (in.file < 0 || ::fstat(in.file, &status) != 0)
+    fail(Status::file, "%s: cannot open: %s", path.c_str(), std::strerror(errno));
+  if (S_ISDIR(status.st_mode))
+    fail(Status::file, "%s: cannot read: %s", path.c_str(), std::strerror(EISDIR));
+  if (!S_ISREG(status.st_mode)) fail(Status::file, "%s: not a regular file", path.c_str());
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (static_cast<double>(status.st_size) > memory / 2)
+    fail(Status::memory, "%s: larger than half the memory of this machine", path.c_str());
+  content.resize(static_cast<size_t>(status.st_size));
+  size_t size = 0;
+  while (size < content.size()) {
+    const ssize_t count = ::read(in.file, &content[size], content.size() - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(Status::file, "%s: cannot read: %s", path.c_str(), std::strerror(errno));
+    if (count == 0) break;
+    size += static_cast<size_t>(count);
+  }
+  content.resize(size);
+  return true;
 }
 
 }  // namespace hrad

@@ -1,5 +1,5 @@
-// Files that one process writes: they appear whole under their name or not at all. Floor 2
-// (machine).
+// Files of one process: read at once into memory; written so that they appear whole under their
+// name or not at all. Floor 2 (machine).
 #pragma once
 
 #include <sys/types.h>
@@ -34,5 +34,10 @@ class WholeFile {
   int file_ = -1;
   std::vector<char> buffer_;
 };
+
+// Reads a regular file. False when nothing has this name; FILE for anything else that is no regular
+// file (a folder, a device, a pipe: it is not waited for) or can't be read; MEMORY for one larger
+// than half this machine's memory.
+bool read_file(const std::string& path, std::string& content);
 
 }  // namespace hrad

@@ -158,6 +158,28 @@ void failed_writes_leave_nothing() {
   CHECK_EQUAL(folder.entries(), 1);
 }
 
+void reading() {
+  Folder folder;
+  const std::string path = folder.path + "/in";
+  std::string text = "before";
+  CHECK(!hrad::read_file(path, text));
+  CHECK(!hrad::read_file("", text));
+  const std::string wanted = std::string(300000, 'x') + std::string(1, '\0') + "end";
+  put(path, wanted);
+  CHECK(hrad::read_file(path, text));
+  CHECK(text == wanted);
+  put(path, "");
+  CHECK(hrad::read_file(path, text) && text.empty());
+  CHECK_FAILS(hrad::read_file(folder.path, text), Status::file, "Is a directory");
+  CHECK_FAILS(hrad::read_file("/dev/zero", text), Status::file, "not a regular file");
+  CHECK(mkfifo((folder.path + "/fifo").c_str(), 0600) == 0);
+  CHECK_FAILS(hrad::read_file(folder.path + "/fifo", text), Status::file, "not a regular file");
+  CHECK(symlink("loop", (folder.path + "/loop").c_str()) == 0);
+  CHECK_FAILS(hrad::read_file(folder.path + "/loop", text), Status::file, "loop: cannot open: Too");
+  CHECK(truncate(path.c_str(), int64_t{1} << 42) == 0);
+  CHECK_FAILS(hrad::read_file(path, text), Status::memory, "larger than half the memory");
+}
+
 }  // namespace
 
 int main() {

@@ -1,0 +1,82 @@
+// Reads MTL text. Floor 3 (scene).
+#include "scene/mtl_reader.h"
+
+#include "scene/obj_lexer.h"
+
+namespace hrad {
+
+namespace {
+
+// A surface that reflects everything has no equilibrium; this is the nearest the solver takes.
+constexpr double largest_reflectance = 0.99;
+
+// Counts an event and keeps the place of the first one.
+void note(int64_t& count, std::string& first, const ObjLexer& lexer) {
+  if (count++ == 0) first = lexer.here();
+}
+
+// The one or three numbers of Kd or Ke.
+std::array<double, 3> color(ObjLexer& lexer) {
+  const std::string name(lexer.keyword());
+  const auto& words = lexer.words();
+  if (!words.empty() && (words[0] == "spectral" || words[0] == "xyz"))
+    lexer.fail_here(name + " " + std::string(words[0]) +
+                    " is not supported: give one or three numbers (red, green, blue)");
+  if (words.size() != 1 && words.size() != 3)
+    lexer.fail_here(name + " needs one or three numbers, not " + std::to_string(words.size()));
+  std::array<double, 3> values;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t word = words.size() == 1 ? 0 : i;
+    values[i] = lexer.number(word);
+    if (values[i] < 0) lexer.fail_here(name + " " + quoted(words[word]) + " is negative");
+    if (values[i] == 0) values[i] = 0;  // not -0
+  }
+  return values;
+}
+
+bool is_texture(std::string_view keyword) {
+  return keyword.substr(0, 4) == "map_" || keyword == "bump" || keyword == "disp" ||
+         keyword == "decal" || keyword == "refl" || keyword == "norm";
+}
+
+}  // namespace
+
+void read_mtl(const std::string& path, std::string_view text, MtlLibrary& library) {
+  ObjLexer lexer(path, text);
+  MtlMaterial ignored;  // takes what is said of a repeated name
+  MtlMaterial* current = nullptr;
+  while (lexer.next()) {
+    const std::string_view keyword = lexer.keyword();
+    if (keyword == "newmtl") {
+      if (lexer.rest().empty()) lexer.fail_here("newmtl without a name");
+      const std::string name(lexer.rest());
+      const int32_t number = static_cast<int32_t>(library.materials.size());
+      if (library.numbers.emplace(name, number).second) {
+        library.materials.emplace_back();
+        current = &library.materials.back();
+        current->name = name;
+      } else {
+        note(library.repeated, library.first_repeated, lexer);
+        current = &ignored;
+      }
+    } else if (keyword == "Kd" || keyword == "Ke") {
+      if (!current) lexer.fail_here(std::string(keyword) + " before the first newmtl");
+      std::array<double, 3> values = color(lexer);
+      if (keyword == "Ke") {
+        current->emission = values;
+        continue;
+      }
+      for (double& value : values)
+        if (value >= 1) {
+          value = largest_reflectance;
+          if (current != &ignored) note(library.clamped, library.first_clamped, lexer);
+        }
+      current->reflectance = values;
+      current->has_reflectance = true;
+    } else if (is_texture(keyword)) {
+      note(library.textures, library.first_texture, lexer);
+    }
+  }
+}
+
+}  // namespace hrad

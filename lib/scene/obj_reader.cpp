@@ -1,0 +1,278 @@
+// Reads an OBJ file with its MTL files into a scene. Floor 3 (scene).
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "base/error.h"
+#include "machine/file_self.h"
+#include "scene/load.h"
+#include "scene/mtl_reader.h"
+#include "scene/obj_content.h"
+#include "scene/obj_lexer.h"
+#include "scene/triangulate.h"
+
+namespace hrad {
+
+namespace {
+
+using std::to_string;
+
+bool ends_with_mtl(std::string_view word) {
+  if (word.size() < 4) return false;
+  const std::string_view ending = word.substr(word.size() - 4);
+  return ending == ".mtl" || ending == ".MTL";
+}
+
+class Reader {
+ public:
+  Reader(const std::string& path, int bands, Sides sides) : path_(path), sides_(sides) {
+    made_.bands = bands;
+  }
+
+  Scene read() {
+    std::string text;
+    if (!read_file(path_, text))
+      fail(Status::file, "%s: cannot open: No such file or directory", path_.c_str());
+    content_ = parse_obj(path_, text);
+    for (const ObjContent::Library& library : content_.libraries) read_library(library);
+    add_materials();
+    made_.vertices = std::move(content_.vertices);
+    add_faces();
+    describe();
+    return std::move(made_);
+  }
+
+ private:
+  std::string place(int64_t line) const { return path_ + ":" + to_string(line); }
+  void say(std::string text) { made_.diagnostics.push_back(std::move(text)); }
+
+  // ---- materials
+
+  std::string folder() const {
+    const size_t slash = path_.rfind('/');
+    return slash == std::string::npos ? "" : path_.substr(0, slash + 1);
+  }
+
+  // A scene may come from anywhere: it names files of its own folder and the folders below.
+  void check_name(const std::string& name, int64_t line) const {
+    bool leaves = name[0] == '/';
+    for (size_t begin = 0; begin <= name.size();) {
+      const size_t end = std::min(name.find('/', begin), name.size());
+      leaves = leaves || name.compare(begin, end - begin, "..") == 0;
+      begin = end + 1;
+    }
+    if (leaves)
+      throw Error(Status::scene, place(line) + ": mtllib " + quoted(name) +
+                                     " lies outside the folder of the scene and is refused");
+  }
+
+  // One name with blanks if there is such a file, otherwise several names: each goes up to a word
+  // that ends in .mtl, or to the end.
+  void read_library(const ObjContent::Library& library) {
+    check_name(library.names, library.line);
+    if (read_materials(library.names)) return;
+    std::vector<std::string_view> words;
+    split_words(library.names, words);
+    const char* begin = nullptr;
+    for (size_t i = 0; i < words.size(); ++i) {
+      if (!begin) begin = words[i].data();
+      if (!ends_with_mtl(words[i]) && i + 1 < words.size()) continue;
+      const char* end = words[i].data() + words[i].size();
+      const std::string name(begin, static_cast<size_t>(end - begin));
+      begin = nullptr;
+      check_name(name, library.line);
+      if (!read_materials(name))
+        say(place(library.line) + ": no file " + quoted(folder() + name) +
+            ": its materials are unknown");
+    }
+  }
+
+  // False when there is no such file.
+  bool read_materials(const std::string& name) {
+    if (libraries_read_.count(name)) return true;
+    std::string text;
+    if (!read_file(folder() + name, text)) return false;
+    libraries_read_.insert(name);
+    read_mtl(folder() + name, text, mtl_);
+    return true;
+  }
+
+  std::vector<double> in_bands(const std::array<double, 3>& rgb) const {
+    if (made_.bands == 3) return {rgb.begin(), rgb.end()};
+    if (rgb[0] == rgb[1] && rgb[1] == rgb[2]) return {rgb[0]};  // not rounded by a division
+    return {(rgb[0] + rgb[1] + rgb[2]) / 3};
+  }
+
+  void add_materials() {
+    for (const MtlMaterial& m : mtl_.materials) {
+      Material material;
+      material.name = m.name;
+      material.reflectance = in_bands(m.reflectance);
+      material.emission = in_bands(m.emission);
+      material.two_sided = sides_ == Sides::two_sided;
+      made_.add_material(std::move(material));
+    }
+    for (size_t i = 0; i < content_.material_names.size(); ++i) {
+      const auto found = mtl_.numbers.find(content_.material_names[i]);
+      material_of_name_.push_back(found == mtl_.numbers.end() ? -1 : found->second);
+    }
+  }
+
+  // Reflectance 0.5, no emission: for faces without a known material.
+  int32_t default_material() {
+    if (default_material_ < 0) {
+      Material material;
+      material.name = "default";
+      material.two_sided = sides_ == Sides::two_sided;
+      default_material_ = made_.add_material(std::move(material));
+    }
+    return default_material_;
+  }
+
+  // ---- faces
+
+  void add_faces() {
+    std::vector<std::array<int32_t, 3>> triangles;
+    std::vector<Vec3> polygon;
+    std::vector<int64_t> unknown_material(content_.material_names.size(), 0);
+    for (int64_t face = 0; face < content_.face_count(); ++face) {
+      const int32_t* corners = &content_.corners[content_.first_corner[face]];
+      const size_t n =
+          static_cast<size_t>(content_.first_corner[face + 1] - content_.first_corner[face]);
+      polygon.clear();
+      for (size_t i = 0; i < n; ++i) polygon.push_back(made_.vertices[corners[i]]);
+      triangles.clear();
+      if (!triangulate(polygon, triangles) && fans_++ == 0) first_fan_ = face;
+
+      const int32_t name = content_.material[face];
+      int32_t material = name < 0 ? -1 : material_of_name_[name];
+      if (material < 0) {
+        material = default_material();
+        if (name >= 0) ++unknown_material[name];
+        if (name < 0) ++faces_without_material_;
+      }
+      if (triangles.size() >
+          static_cast<size_t>(std::numeric_limits<int32_t>::max() - made_.patch_count()))
+        fail(Status::scene, "%s: more than 2^31-1 triangles", place(content_.line[face]).c_str());
+      for (std::array<int32_t, 3> t : triangles) {
+        if (sides_ == Sides::flip) std::swap(t[1], t[2]);
+        made_.add_patch(corners[t[0]], corners[t[1]], corners[t[2]], material, face);
+      }
+    }
+    for (size_t i = 0; i < unknown_material.size(); ++i)
+      if (unknown_material[i])
+        say(place(content_.material_line[i]) + ": material " + quoted(content_.material_names[i]) +
+            " is unknown: reflectance 0.5 for its " + to_string(unknown_material[i]) + " faces");
+  }
+
+  // ---- what was doubtful
+
+  void describe() {
+    if (faces_without_material_)
+      say(path_ + ": " + to_string(faces_without_material_) +
+          " faces without a material: reflectance 0.5");
+    const auto first = [this](int64_t line) { return " (first: " + place(line) + ")"; };
+    if (mtl_.clamped)
+      say(to_string(mtl_.clamped) +
+          " channels of Kd of 1 or more are clamped to 0.99 (first: " + mtl_.first_clamped + ")");
+    if (mtl_.textures)
+      say(to_string(mtl_.textures) + " textures are ignored (first: " + mtl_.first_texture + ")");
+    if (mtl_.repeated)
+      say(to_string(mtl_.repeated) +
+          " repeated definitions of a material are ignored (first: " + mtl_.first_repeated + ")");
+    int64_t without = 0;
+    std::string first_without;
+    for (const MtlMaterial& m : mtl_.materials)
+      if (!m.has_reflectance && without++ == 0) first_without = quoted(m.name);
+    if (without)
+      say(to_string(without) + " materials without Kd: reflectance 0.5 (first: " + first_without +
+          ")");
+    if (content_.repeated_corners)
+      say(to_string(content_.repeated_corners) + " repeated corners are left out of their faces" +
+          first(content_.first_repeated_corner));
+    if (fans_)
+      say(to_string(fans_) +
+          " faces cross themselves or have no area and are cut into fans of triangles" +
+          first(content_.line[first_fan_]));
+    for (const auto& [keyword, count] : content_.ignored)
+      say(to_string(count.count) + " statements " + quoted(keyword) + " are ignored" +
+          first(count.first_line));
+    if (content_.unknown.count)
+      say(to_string(content_.unknown.count) + " unknown statements are ignored (first: " +
+          place(content_.unknown.first_line) + ": " + content_.first_unknown + ")");
+    if (content_.face_count() == 0) say(path_ + ": there are no faces");
+  }
+
+  std::string path_;
+  Sides sides_;
+  ObjContent content_;
+  MtlLibrary mtl_;
+  std::set<std::string> libraries_read_;
+  std::vector<int32_t> material_of_name_;  // per usemtl name; -1: unknown
+  int32_t default_material_ = -1;
+  int64_t fans_ = 0, first_fan_ = 0, faces_without_material_ = 0;
+  Scene made_;
+};
+
+template <class T>
+void append(std::vector<T>& to, std::vector<T>& from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+template <class T>
+void reserve_for(std::vector<T>& to, const std::vector<T>& from) {
+  to.reserve(to.size() + from.size());
+}
+
+// Adds all of `made` to the scene, or nothing when it throws.
+void append_scene(Scene& scene, Scene made) {
+  constexpr size_t most = std::numeric_limits<int32_t>::max();
+  if (scene.vertices.size() + made.vertices.size() > most ||
+      scene.corners.size() + made.corners.size() > most)
+    fail(Status::scene, "the scene has more than 2^31-1 vertices or patches");
+  const int32_t first_vertex = static_cast<int32_t>(scene.vertices.size());
+  const int32_t first_material = static_cast<int32_t>(scene.materials.size());
+  for (auto& corners : made.corners)
+    for (int32_t& corner : corners) corner += first_vertex;
+  for (int32_t& material : made.material) material += first_material;
+  // All memory first: what follows can't fail.
+  reserve_for(scene.vertices, made.vertices);
+  reserve_for(scene.materials, made.materials);
+  reserve_for(scene.corners, made.corners);
+  reserve_for(scene.material, made.material);
+  reserve_for(scene.face, made.face);
+  reserve_for(scene.flags, made.flags);
+  reserve_for(scene.emission, made.emission);
+  reserve_for(scene.reflectance, made.reflectance);
+  reserve_for(scene.diagnostics, made.diagnostics);
+  append(scene.vertices, made.vertices);
+  append(scene.materials, made.materials);
+  append(scene.corners, made.corners);
+  append(scene.material, made.material);
+  append(scene.face, made.face);
+  append(scene.flags, made.flags);
+  append(scene.emission, made.emission);
+  append(scene.reflectance, made.reflectance);
+  append(scene.diagnostics, made.diagnostics);
+}
+
+bool emits(const Scene& scene) {
+  return std::any_of(scene.emission.begin(), scene.emission.end(), [](double e) { return e > 0; });
+}
+
+}  // namespace
+
+void load_obj(Scene& scene, const std::string& path, Sides sides) {
+  if (scene.bands != 1 && scene.bands != 3)
+    fail(Status::argument,
+         "%s: an OBJ file has red, green and blue: it needs bands = 3, or bands = 1 for their "
+         "mean, not %d",
+         path.c_str(), scene.bands);
+  Scene made = Reader(path, scene.bands, sides).read();
+  if (!emits(scene) && !emits(made))
+    made.diagnostics.push_back(path + ": no emitter: the scene is dark");
+  append_scene(scene, std::move(made));
+}
+
+}  // namespace hrad
