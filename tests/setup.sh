@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing, by apt; does nothing, and needs no network, when all
-# are there.
+# Installs the Debian packages that are missing, by apt; does nothing, and needs no network, when
+# all are there.
 #   bash tests/setup.sh         what building the library and the tool needs
 #   bash tests/setup.sh tests   and what the tests need besides
 set -euo pipefail

@@ -1,5 +1,5 @@
-# The README keeps its word: its program is the one in hrad.h, what it names exists, and all files that
-# state the version state the same one.
+# The README keeps its word: its program is the one in hrad.h, what it names exists, and all files
+# that state the version state the same one.
 import os
 import re
 import unittest
