@@ -14,7 +14,8 @@ namespace {
 // In scene radii: more than single precision rounds a place on a ray, less than a quarter of
 // offset().
 constexpr double single_precision = 1e-6;
-// In scene radii: hits this close are equally near, and the lowest patch wins.
+// In scene radii: planes that lie this close along the ray are equally near, and the lowest patch
+// wins.
 constexpr double tie = 1e-12;
 
 class BuiltinEngine final : public VisibilityEngine {
@@ -58,11 +59,19 @@ bool is_above_minimum(const RayQuery& query, int32_t patch) {
   return exact_distance(ray.scene.triangle(patch), ray.origin, ray.direction) > ray.t_min;
 }
 
+// Sine of the angle between triangle and direction.
+double tilt_of(const Triangle& triangle, Vec3 direction) {
+  return std::fabs(dot(normalized(triangle.area_vector()), direction));
+}
+
 bool is_nearer(const RayQuery& query, int32_t patch, int32_t than) {
+  if (than < 0) return true;
   const ExactRay& ray = *static_cast<const ExactRay*>(query.context);
   const double t = exact_distance(ray.scene.triangle(patch), ray.origin, ray.direction);
   const double other = exact_distance(ray.scene.triangle(than), ray.origin, ray.direction);
-  if (std::fabs(t - other) <= ray.tie) return patch < than;
+  const double tilt = std::fmin(tilt_of(ray.scene.triangle(patch), ray.direction),
+                                tilt_of(ray.scene.triangle(than), ray.direction));
+  if (std::fabs(t - other) * tilt <= ray.tie) return patch < than;
   return t < other;
 }
 
@@ -86,6 +95,7 @@ Hit BuiltinEngine::nearest(Vec3 origin, Vec3 direction, double t_min) const {
   query.is_nearer = is_nearer;
   query.context = &exact;
   query.t = tree_nowhere;
+  query.doubt = 0;
   query.patch = -1;
   kernels_.nearest(view_, query);
   if (query.patch < 0) return {};

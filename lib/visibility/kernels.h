@@ -22,12 +22,14 @@ struct TreeView {
 struct RayQuery {
   float origin[3];     // relative to the center
   float direction[3];  // of length 1
-  float t_min, band;
+  float t_min;
+  float band;  // bound of the rounding of a distance from a plane
   bool (*is_above_minimum)(const RayQuery& query, int32_t patch);
   bool (*is_nearer)(const RayQuery& query, int32_t patch, int32_t than);
   const void* context;  // for those functions
-  float t;              // result, of the hit
-  int32_t patch;        // result, -1 for none
+  // Result, the hit so far: its place, the bound of that one's rounding, and its patch, -1 for none.
+  float t, doubt;
+  int32_t patch;
 };
 
 struct Kernels {

@@ -35,9 +35,10 @@ inline uint32_t meets(const RayBoxes& ray, const TreeNode& node, float first, fl
   return less_equal(near, far);
 }
 
-// Bit i: the ray's line goes through triangle i of the leaf, at distance t[i]. The same side products
-// as for packets, with the ray's origin as the reference.
-inline uint32_t crosses(const TreeLeaf& leaf, const RayQuery& query, float* t) {
+// Bit i: the ray's line goes through triangle i of the leaf, at distance t[i], wrong by doubt[i] at
+// most, which grows as the ray grazes the triangle. The same side products as for packets, with the
+// ray's origin as the reference.
+inline uint32_t crosses(const TreeLeaf& leaf, const RayQuery& query, float* t, float* doubt) {
   Eight corner[3][3], direction[3];
   for (int axis = 0; axis < 3; ++axis) {
     direction[axis] = Eight::all(query.direction[axis]);
@@ -66,21 +67,21 @@ inline uint32_t crosses(const TreeLeaf& leaf, const RayQuery& query, float* t) {
   }
   const uint32_t oblique = less(whole, zero) | less(zero, whole);
   (part / whole).store(t);
+  (Eight::all(query.band) / greatest(whole, zero - whole)).store(doubt);
   return inside & oblique;
 }
 
 // Takes the triangles of a leaf that are nearer than the hit so far.
 inline void look_at_leaf(const TreeLeaf& leaf, RayQuery& query) {
-  float t[8];
-  for (uint32_t mask = crosses(leaf, query, t); mask; mask &= mask - 1) {
+  float t[8], doubt[8];
+  for (uint32_t mask = crosses(leaf, query, t, doubt); mask; mask &= mask - 1) {
     const int i = __builtin_ctz(mask);
     const int32_t patch = leaf.patch[i];
-    if (!(t[i] >= query.t_min - query.band)) continue;
-    if (t[i] > query.t + query.band) continue;
-    if (t[i] <= query.t_min + query.band && !query.is_above_minimum(query, patch)) continue;
-    const bool clear = t[i] < query.t - query.band;
-    if (clear || query.patch < 0 || query.is_nearer(query, patch, query.patch)) {
+    if (t[i] + doubt[i] < query.t_min || t[i] - doubt[i] > query.t + query.doubt) continue;
+    if (t[i] - doubt[i] <= query.t_min && !query.is_above_minimum(query, patch)) continue;
+    if (t[i] + doubt[i] < query.t - query.doubt || query.is_nearer(query, patch, query.patch)) {
       query.t = t[i];
+      query.doubt = doubt[i];
       query.patch = patch;
     }
   }
@@ -98,14 +99,14 @@ void nearest(const TreeView& tree, RayQuery& query) {
   stack[size++] = {0, first};
   while (size) {
     const Entry top = stack[--size];
-    if (top.t > query.t + query.band) continue;
+    if (top.t > query.t + query.doubt) continue;
     if (top.child & tree_leaf_bit) {
       look_at_leaf(tree.leaves[top.child & ~tree_leaf_bit], query);
       continue;
     }
     const TreeNode& node = tree.nodes[top.child];
     float entry[8];
-    uint32_t mask = meets(ray, node, first, query.t + query.band, entry);
+    uint32_t mask = meets(ray, node, first, query.t + query.doubt, entry);
     // Children go on the stack with the nearest on top.
     for (const int bottom = size; mask; mask &= mask - 1) {
       const int i = __builtin_ctz(mask);
