@@ -15,7 +15,7 @@ const char* type_name(const hrad_param& row) {
 // A limit of whole numbers in all its digits.
 std::string limit_text(const hrad_param& row, double limit) {
   return row.type == HRAD_PARAM_INT ? std::to_string(static_cast<int64_t>(limit))
-                                    : real_text(limit);
+                                    : short_text(limit, 15);
 }
 
 std::string allowed_text(const hrad_param& row) {

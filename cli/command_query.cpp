@@ -56,7 +56,7 @@ constexpr const char* notes =
     "In a file of sensors, numbers are separated by blanks or commas, and # begins a comment.\n"
     "Values are in W/m2 per band.\n"
     "\n"
-    "Example: hrad query cornell --grid 0.1,0,0.1:0.9,0,0.9:8x8 --json";
+    "Example: hrad query furnace --grid 0,0.5,0:1,0.5,1:8x8 --json";
 
 void resolve(Request* request) {
   if (request->quantity_name) {

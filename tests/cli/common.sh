@@ -42,14 +42,19 @@ says() {
 
 # holds EXPRESSION: a Python expression over the last output as JSON, named j, is true.
 holds() {
-  python3 - "$1" <<'PYTHON' || complain "$ran: not so: $1"
-import json, math, sys
+  local why
+  why=$(python3 - "$1" 2>&1 <<'PYTHON'
+import json, sys
 def refuse(name):
     raise ValueError(name + " in JSON")
-with open("out", encoding="utf-8") as file:
-    j = json.load(file, parse_constant=refuse)
-sys.exit(0 if eval(sys.argv[1]) else 1)
+try:
+    with open("out", encoding="utf-8") as file:
+        j = json.load(file, parse_constant=refuse)
+    sys.exit(0 if eval(sys.argv[1]) else 1)
+except Exception as error:
+    sys.exit(repr(error))
 PYTHON
+  ) || complain "$ran: not so: $1 $why"
 }
 
 finish() {

@@ -39,7 +39,7 @@ refuses 2 "write over the input" solve ./scene.csv -o scene.csv
 refuses 2 "write over the input" export ./scene.csv -o other.csv
 cmp -s scene.csv before || complain "the input was changed"
 
-# A built-in scene survives the way through its file.
+# A built-in scene survives the way through its file, but for what OBJ can't say (two sides).
 for name in $("$HRAD" scene --list | grep -v -- -x); do
   works scene "$name" -o written.obj
   [ -s out ] && complain "$ran: output on stdout"
@@ -49,11 +49,10 @@ for name in $("$HRAD" scene --list | grep -v -- -x); do
   python3 - <<'PYTHON' || complain "$name: its file holds another scene"
 import json
 a, b = json.load(open("direct")), json.load(open("out"))
-for key in "patches", "dropped", "two_sided", "blockers", "emitters":
+for key in "patches", "dropped", "emitters":
     assert a[key] == b[key], (key, a[key], b[key])
-for key in "area",:
-    assert abs(a[key] - b[key]) <= 1e-9 * abs(a[key]), key
-for key in "lower", "upper", "emitted":
+assert abs(a["area"] - b["area"]) <= 1e-9 * a["area"]
+for key in "lower", "upper":
     for x, y in zip(a[key], b[key]):
         assert abs(x - y) <= 1e-9 * max(1, abs(x)), key
 PYTHON

@@ -59,8 +59,8 @@ works query cornell --accuracy 0.1 --sensors sensors
 [ "$(wc -l <out)" = 1 ] || complain "no sensors give other than a header"
 
 # A grid: cell centres, the first free coordinate fastest, the normal along the common one.
-works query furnace --accuracy 0.1 --grid=-0.25,0.1,0.25:0.25,0.1,-0.25:2x1 --json
-holds '[p["position"] for p in j["sensors"]] == [[-0.125, 0.1, 0], [0.125, 0.1, 0]]'
+works query furnace --accuracy 0.1 --grid=0.75,0.1,0.25:0.25,0.1,0.75:2x1 --json
+holds '[p["position"] for p in j["sensors"]] == [[0.625, 0.1, 0.5], [0.375, 0.1, 0.5]]'
 holds 'all(p["normal"] == [0, 1, 0] for p in j["sensors"])'
 works query furnace --accuracy 0.1 --grid 0.1,0,0:0.1,0.2,0.4:1x2 --json
 holds '[p["position"] for p in j["sensors"]] == [[0.1, 0.1, 0.1], [0.1, 0.1, 0.30000000000000004]]'
