@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# hrad.h in the hands of others: it compiles alone and twice over in every language it promises, with
+# all warnings as errors, and every function that it declares is in the library.
+set -euo pipefail
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+cat >twice.c <<'END'
+#include <hrad/hrad.h>
+#include <hrad/hrad.h>
+hrad_status use(hrad_solver **solver);
+hrad_status use(hrad_solver **solver) { return hrad_create(solver); }
+END
+cp twice.c twice.cpp
+warnings=(-Wall -Wextra -pedantic -Werror -Wshadow -Wundef)
+for standard in c99 c11 c17; do
+  cc -std=$standard "${warnings[@]}" -Wstrict-prototypes -I"$HRAD_SOURCE_DIR/include" -c twice.c
+  cc -std=$standard "${warnings[@]}" -DHRAD_SHARED -I"$HRAD_SOURCE_DIR/include" -c twice.c
+done
+for standard in c++11 c++17 c++20; do
+  c++ -std=$standard "${warnings[@]}" -I"$HRAD_SOURCE_DIR/include" -c twice.cpp
+done
+
+sed -n 's/^HRAD_API.*[ *]\(hrad_[a-z_]*\)(.*/\1/p' "$HRAD_SOURCE_DIR/include/hrad/hrad.h" |
+  sort >declared
+nm --defined-only "$HRAD_BINARY_DIR/lib/libhrad.a" 2>/dev/null |
+  sed -n 's/^[0-9a-f]* T \(hrad_[a-z_]*\)$/\1/p' | sort >defined
+[[ $(wc -l <declared) -ge 40 ]]
+# The same names: nothing is missing, and nothing is exported that the header doesn't tell of.
+diff declared defined
