@@ -39,4 +39,27 @@ inline double angle_of(double sine, double cosine) {
   return cosine < 0 ? pi - angle : angle;
 }
 
+// Cosine and sine of a fraction in [0,1) of a full turn. Absolute error below 1e-13: the nearest
+// quarter turn is taken away, the rest is at most pi/4, where the series are cut after x^14, x^15.
+struct Turn {
+  double cosine, sine;
+};
+inline Turn turn_of(double fraction) {
+  const int quarter = static_cast<int>(fraction * 4 + 0.5);
+  const double x = (fraction - 0.25 * quarter) * (2 * pi);
+  const double z = x * x;
+  const double c =
+      1 - z / 2 * (1 - z / 12 * (1 - z / 30 * (1 - z / 56 * (1 - z / 90 * (1 - z / 132 *
+      (1 - z / 182))))));
+  const double s =
+      x * (1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110 * (1 - z / 156 *
+      (1 - z / 210)))))));
+  switch (quarter & 3) {
+    case 0: return {c, s};
+    case 1: return {-s, c};
+    case 2: return {-c, -s};
+    default: return {s, -c};
+  }
+}
+
 }  // namespace hrad

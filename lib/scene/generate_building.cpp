@@ -42,7 +42,7 @@ Layout layout_of(int size) {
 }
 
 struct Palette {
-  int32_t wall, floor, ceiling, door_frame, housing, light, table, chair, cabinet, sofa;
+  int32_t wall, floor, ceiling, door_frame, housing, light, table, chair, cabinet, couch;
 };
 
 Palette add_palette(Scene& scene) {
@@ -56,7 +56,7 @@ Palette add_palette(Scene& scene) {
   p.table = add_rgb_material(scene, "table", {.42, .29, .17});
   p.chair = add_rgb_material(scene, "chair", {.25, .32, .40});
   p.cabinet = add_rgb_material(scene, "cabinet", {.50, .38, .25});
-  p.sofa = add_rgb_material(scene, "sofa", {.45, .14, .12});
+  p.couch = add_rgb_material(scene, "couch", {.45, .14, .12});
   return p;
 }
 
@@ -119,22 +119,22 @@ void add_storey(Scene& scene, const Layout& layout, int storey, const Palette& p
   shell.add_to(scene);
 }
 
-// Lamp 12, table 28, chair 36, sofa 20, cabinet 12: 108 triangles.
+// Lamp 12, table 28, chair 40, couch 16, cabinet 12: 108 triangles.
 void furnish(Scene& scene, Point room, const Palette& p) {
   const Place place{room};
   // Hung 10 cm below the ceiling.
   add_lamp(scene, room + Point{1900, 1700, 2840}, room + Point{3100, 2300, 2900}, p.housing,
            p.light);
-  // A board on two side panels, a chair at its long side, seen along x and y.
+  // A board on two side panels; at its long side a chair whose back leans.
   const Profile table{{0, 0},    {720, 0},    {720, 1520}, {0, 1520},
                       {0, 1560}, {750, 1560}, {750, -40},  {0, -40}};
   extrusion(table, 1, 0, 800, place.at({1720, 1300, 0}), p.table).add_to(scene);
-  const Profile chair{{0, 0},   {30, 0},    {30, 420},  {390, 420}, {390, 0},
-                      {420, 0}, {420, 850}, {390, 850}, {390, 450}, {0, 450}};
+  const Profile chair{{0, 0},     {30, 0},    {30, 420},  {390, 420}, {390, 0}, {420, 0},
+                      {420, 450}, {480, 850}, {450, 850}, {390, 450}, {0, 450}};
   extrusion(chair, 0, 0, 420, place.at({2290, 1900, 0}), p.chair).add_to(scene);
   // Both stand against a wall.
-  const Profile sofa{{0, 0}, {850, 0}, {850, 420}, {250, 420}, {250, 800}, {0, 800}};
-  extrusion(sofa, 0, 0, 1900, place.at({900, 0, 0}), p.sofa).add_to(scene);
+  const Profile couch{{0, 0}, {850, 0}, {850, 420}, {350, 420}, {0, 800}};
+  extrusion(couch, 0, 0, 1900, place.at({900, 0, 0}), p.couch).add_to(scene);
   add_box(scene, place, {0, 1100, 0}, {450, 2300, 1900}, p.cabinet);
 }
 

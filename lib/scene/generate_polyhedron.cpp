@@ -145,7 +145,7 @@ void Polyhedron::add_to(Scene& scene) const {
   };
   for (const Face& face : faces_) {
     const Outline outline = lines.with_corners_inside_edges(face.outline);
-    for (const auto& [a, b, c] : triangulate(outline))
+    for (const auto& [a, b, c] : triangulate_outline(outline))
       scene.add_patch(vertex(outline[a]), vertex(outline[b]), vertex(outline[c]), face.material);
   }
 }
@@ -179,7 +179,7 @@ Polyhedron extrusion(const Profile& profile, int axis, int32_t low, int32_t high
   return solid;
 }
 
-std::vector<std::array<int, 3>> triangulate(const Outline& outline) {
+std::vector<std::array<int, 3>> triangulate_outline(const Outline& outline) {
   const std::vector<Point2> points = project(outline);
   std::vector<int> ring(points.size());
   for (size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<int>(i);

@@ -45,6 +45,6 @@ Polyhedron extrusion(const Profile& profile, int axis, int32_t low, int32_t high
 
 // Triangles (as indices of corners) of a plane simple polygon, anticlockwise like the polygon; none
 // has area zero, even if corners lie on a straight line. Exact: integers alone, ties by index.
-std::vector<std::array<int, 3>> triangulate(const Outline& outline);
+std::vector<std::array<int, 3>> triangulate_outline(const Outline& outline);
 
 }  // namespace hrad

@@ -92,7 +92,9 @@ class Solver {
 
  private:
   struct Solution;
+  class Run;
   void require_solved() const;
+  const class Reconstruction& reconstruction() const;
   void require_open() const;  // the scene may still grow
 
   Params params_;

@@ -1,0 +1,253 @@
+// The error estimate and the power balance. Floor 8 (solver).
+#include "solver/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/frame.h"
+#include "base/hash.h"
+#include "solver/ray_gather.h"
+
+namespace hrad {
+namespace {
+
+constexpr int most_bands = 16;
+constexpr int measured_patches = 512;
+constexpr int points_of_a_patch = 32;
+constexpr int64_t rays_of_the_balance = 131072;
+
+// Draws items in proportion to their weights, spread evenly: item of draw k of `draws`.
+class EvenDraw {
+ public:
+  explicit EvenDraw(const std::vector<double>& weights) {
+    double sum = 0;
+    for (double w : weights) cumulative_.push_back(sum += w);
+  }
+  double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
+  size_t pick(double fraction) const {
+    const double at = fraction * total();
+    const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), at);
+    return std::min(static_cast<size_t>(found - cumulative_.begin()), cumulative_.size() - 1);
+  }
+
+ private:
+  std::vector<double> cumulative_;
+};
+
+Vec3 point_of(const Triangle& t, uint64_t hash) {
+  double u = unit_interval(mix(hash, 1)), v = unit_interval(mix(hash, 2));
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  return t.at(u, v);
+}
+
+bool dark(const Scene& scene, int32_t patch) {
+  for (int b = 0; b < scene.bands; ++b)
+    if (scene.emission[static_cast<size_t>(patch) * scene.bands + b] > 0) return false;
+  return true;
+}
+
+// One drawn patch: the squares of what was solved and of the residual, all bands together.
+struct Residual {
+  double square = 0, noise = 0;  // residual squared, and the variance of the measurement in it
+  double solved = 0;             // radiosity squared
+  double signed_sum = 0, solved_sum = 0;
+  int64_t rays = 0;
+};
+
+Residual residual_of(const State& state, const StageTools& tools, const RayGather& rays,
+                     NodeId root, uint64_t key, int rays_of_a_point, bool reflected) {
+  const Scene& scene = *state.forest.scene;
+  const Surface& surface = state.forest.surfaces[root];
+  const int bands = state.bands;
+  double sum[most_bands] = {}, squares[most_bands] = {};
+  Residual r;
+  for (int k = 0; k < points_of_a_patch; ++k) {
+    const uint64_t h = mix(key, static_cast<uint64_t>(k));
+    // Spread over the patch: the sixteenths in turn.
+    const int part = k % 16;
+    Node place;
+    place = child_place(child_place(place, part / 4), part % 4);
+    place.surface = root;
+    const Vec3 on = point_of(state.forest.triangle(place), h);
+    double value[most_bands] = {}, unused[most_bands] = {};
+    if (!tools.exposure.can_be_sealed(surface.patch, surface.side) ||
+        !tools.exposure.sealed(surface.patch, surface.side, on))
+      r.rays += rays.sample(on + surface.normal * tools.engine.offset(), surface.normal, h,
+                            rays_of_a_point, value, unused);
+    for (int b = 0; b < bands; ++b) {
+      const double mean = value[b] / rays_of_a_point;
+      sum[b] += mean;
+      squares[b] += mean * mean;
+    }
+  }
+  const double exposed = state.forest.nodes[root].exposed;
+  for (int b = 0; b < bands; ++b) {
+    const size_t at = static_cast<size_t>(surface.patch) * bands + b;
+    const double factor = reflected ? scene.reflectance[at] : 1.0;
+    const double mean = sum[b] / points_of_a_patch;
+    const double variance =
+        std::max(0.0, squares[b] / points_of_a_patch - mean * mean) / (points_of_a_patch - 1);
+    const double solved = exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
+    const double difference = factor * (solved - mean);
+    r.square += difference * difference;
+    r.noise += factor * factor * variance;
+    r.solved += factor * factor * solved * solved;
+    r.signed_sum += difference;
+    r.solved_sum += factor * solved;
+  }
+  return r;
+}
+
+}  // namespace
+
+ErrorEstimate estimate_error(const State& state, const StageTools& tools, double accuracy) {
+  const Scene& scene = *state.forest.scene;
+  const Forest& forest = state.forest;
+  bool reflected = false;  // black scenes are measured by their irradiance
+  double reflecting = 0, area = 0;
+  std::vector<double> weights;
+  std::vector<NodeId> roots;
+  for (NodeId root = 0; root < forest.surface_count(); ++root) {
+    const Surface& surface = forest.surfaces[root];
+    double largest = 0;
+    for (int b = 0; b < scene.bands; ++b)
+      largest = std::max(largest, scene.reflectance[static_cast<size_t>(surface.patch) * scene.bands + b]);
+    reflecting += largest * surface.area;
+    area += surface.area;
+    if (!dark(scene, surface.patch)) continue;
+    reflected = reflected || largest > 0;
+    weights.push_back(surface.area);
+    roots.push_back(root);
+  }
+  ErrorEstimate estimate;
+  if (roots.empty()) return estimate;
+  const EvenDraw draw(weights);
+  const RayGather rays(state, tools.engine);
+  const double wanted = 8 * (0.02 / accuracy) * (0.02 / accuracy);
+  const int rays_of_a_point = static_cast<int>(std::max(4.0, std::min(32.0, wanted)));
+  std::vector<Residual> residuals(measured_patches);
+  tools.team.for_each(measured_patches, [&](int64_t k, int) {
+    const uint64_t h = mix(tools.oracle.seed, static_cast<uint64_t>(k), 0x6572726f72u);
+    const size_t pick =
+        draw.pick((static_cast<double>(k) + unit_interval(h)) / measured_patches);
+    residuals[k] = residual_of(state, tools, rays, roots[pick], h, rays_of_a_point, reflected);
+  });
+  double square = 0, solved = 0, fourth = 0, bias = 0, solved_sum = 0;
+  for (const Residual& r : residuals) {
+    const double net = r.square - r.noise;
+    square += net;
+    fourth += net * net;
+    solved += r.solved;
+    bias += r.signed_sum;
+    solved_sum += r.solved_sum;
+    estimate.rays += r.rays;
+  }
+  if (!(solved > 0)) return estimate;
+  // The mean error is reflected on and on, the rest averages out at the next bounce.
+  const double mean_reflectance = reflected ? std::min(0.99, reflecting / area) : 0.0;
+  const double relative_bias = bias / solved_sum;
+  const double carried = relative_bias / (1 - mean_reflectance);
+  const double variance =
+      std::max(0.0, square / solved - relative_bias * relative_bias) + carried * carried;
+  estimate.error = std::sqrt(variance);
+  const double count = measured_patches;
+  const double spread = std::sqrt(std::max(0.0, fourth / count - (square / count) * (square / count)) / count);
+  const double error_of_square = spread / (solved / count);
+  estimate.standard_error = std::min(
+      std::sqrt(error_of_square), error_of_square / (2 * std::max(estimate.error, 1e-12)));
+  return estimate;
+}
+
+PowerBalance measure_balance(const State& state, const StageTools& tools) {
+  const Scene& scene = *state.forest.scene;
+  const Forest& forest = state.forest;
+  const int bands = state.bands;
+  PowerBalance balance;
+  for (auto* v : {&balance.emitted, &balance.absorbed, &balance.absorbed_back, &balance.escaped})
+    v->assign(bands, 0.0);
+  // Leaving power of the exposed part of every leaf, in relative units of its strongest band.
+  const std::vector<NodeId> leaves = forest.leaves();
+  std::vector<double> leaving(bands, 0.0);
+  for (NodeId id : leaves) {
+    const Node& node = forest.nodes[id];
+    const double area = forest.area(node), exposed = area * node.exposed;
+    const size_t at = static_cast<size_t>(id) * bands;
+    const size_t patch = static_cast<size_t>(forest.surfaces[node.surface].patch) * bands;
+    for (int b = 0; b < bands; ++b) {
+      balance.emitted[b] += area * scene.emission[patch + b];
+      balance.absorbed[b] += exposed * (1 - scene.reflectance[patch + b]) * state.irradiance[at + b];
+      // What a sealed part emits is absorbed in the contact.
+      balance.absorbed_back[b] += (area - exposed) * scene.emission[patch + b];
+      leaving[b] += exposed * state.radiosity[at + b];
+    }
+  }
+  std::vector<double> weights(leaves.size(), 0.0);
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    const Node& node = forest.nodes[leaves[k]];
+    const double exposed = forest.area(node) * node.exposed;
+    for (int b = 0; b < bands; ++b)
+      if (leaving[b] > 0)
+        weights[k] += exposed * state.radiosity[static_cast<size_t>(leaves[k]) * bands + b] / leaving[b];
+  }
+  const EvenDraw draw(weights);
+  if (!(draw.total() > 0)) return balance;
+
+  // A fixed number of tasks, each with sums of its own, added in order.
+  constexpr int64_t tasks = 64;
+  struct Sums {
+    double back[most_bands] = {}, out[most_bands] = {};
+    int64_t back_rays = 0, rays = 0;
+  };
+  std::vector<Sums> sums(tasks);
+  constexpr int64_t rays_of_a_task = rays_of_the_balance / tasks;
+  tools.team.for_each(tasks, [&](int64_t task, int) {
+    Sums& s = sums[task];
+    for (int64_t k = 0; k < rays_of_a_task; ++k) {
+      const int64_t number = task * rays_of_a_task + k;
+      const uint64_t h = mix(tools.oracle.seed, static_cast<uint64_t>(number), 0x706f776572u);
+      const double fraction = (static_cast<double>(number) + unit_interval(h)) /
+                              static_cast<double>(rays_of_the_balance);
+      const size_t pick = draw.pick(fraction);
+      const NodeId id = leaves[pick];
+      const Node& node = forest.nodes[id];
+      const Surface& surface = forest.surfaces[node.surface];
+      const Triangle triangle = forest.triangle(node);
+      Vec3 on = point_of(triangle, h);
+      // On a partly sealed leaf only exposed points send light.
+      if (node.exposed < 1)
+        for (uint64_t again = 1;
+             again < 64 && tools.exposure.sealed(surface.patch, surface.side, on); ++again)
+          on = point_of(triangle, mix(h, again));
+      const Frame frame(surface.normal);
+      const Vec3 d = frame.cosine_direction(unit_interval(mix(h, 3)), unit_interval(mix(h, 4)));
+      const Hit hit = tools.engine.nearest(on + surface.normal * tools.engine.offset(), d, 0);
+      ++s.rays;
+      const bool lost = hit.patch < 0;
+      if (!lost && forest.root(hit.patch, hit.back ? 1 : 0) >= 0) continue;
+      if (!lost) ++s.back_rays;
+      const double chance = weights[pick] / draw.total();
+      const double exposed = forest.area(node) * node.exposed;
+      for (int b = 0; b < bands; ++b) {
+        const double power = exposed * state.radiosity[static_cast<size_t>(id) * bands + b] /
+                             (chance * static_cast<double>(rays_of_the_balance));
+        (lost ? s.out : s.back)[b] += power;
+      }
+    }
+  });
+  int64_t back_rays = 0;
+  for (const Sums& s : sums) {
+    balance.rays += s.rays;
+    back_rays += s.back_rays;
+    for (int b = 0; b < bands; ++b) {
+      balance.absorbed_back[b] += s.back[b];
+      balance.escaped[b] += s.out[b];
+    }
+  }
+  balance.back_share = static_cast<double>(back_rays) / static_cast<double>(balance.rays);
+  return balance;
+}
+
+}  // namespace hrad

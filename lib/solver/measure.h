@@ -1,0 +1,32 @@
+// Measuring a solution after its sweeps, by rays of its own: how far it is from what its own light
+// would bring, and where the power goes. Floor 8 (solver).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "stages/state.h"
+
+namespace hrad {
+
+struct ErrorEstimate {
+  double error = -1;  // by the definition of the accuracy; negative: there is no light to measure
+  double standard_error = 0;
+  int64_t rays = 0;
+};
+
+// Irradiance by rays against the solution's own on patches drawn by area. What is measured is the
+// residual of one bounce; its mean is carried on through all further bounces.
+ErrorEstimate estimate_error(const State& state, const StageTools& tools, double accuracy);
+
+struct PowerBalance {
+  std::vector<double> emitted, absorbed, absorbed_back, escaped;  // W per band
+  double back_share = 0;  // of the rays sent: those that met a black back
+  int64_t rays = 0;
+};
+
+// Emitted by emission and areas, absorbed by fronts by the links' irradiance, the rest by rays that
+// carry the leaving power.
+PowerBalance measure_balance(const State& state, const StageTools& tools);
+
+}  // namespace hrad

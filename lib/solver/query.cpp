@@ -1,0 +1,235 @@
+// Answers from a solution: patches, points, sensors, leaves, balance. Floor 8 (solver).
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "solver/ray_gather.h"
+#include "solver/solution.h"
+
+namespace hrad {
+namespace {
+
+constexpr int most_bands = 16;
+
+void check_range(const char* what, int64_t first, int64_t count, int64_t size) {
+  if (first < 0 || count < 0 || first > size || count > size - first)
+    fail(Status::argument, "%lld %s from %lld on: there are %lld, from 0 on",
+         static_cast<long long>(count), what, static_cast<long long>(first),
+         static_cast<long long>(size));
+}
+
+void check_quantity(Quantity quantity, int32_t side) {
+  if (quantity < Quantity::radiosity || quantity > Quantity::net_flux)
+    fail(Status::argument, "quantity %d: use HRAD_RADIOSITY, _IRRADIANCE, _EMISSION or _NET_FLUX",
+         static_cast<int>(quantity));
+  if (side != 0 && side != 1)
+    fail(Status::argument, "side %d: use HRAD_FRONT or HRAD_BACK", static_cast<int>(side));
+}
+
+// From the irradiance over the whole area: radiosity there is B = E + rho H.
+double value_of(Quantity quantity, double emission, double reflectance, double irradiance) {
+  switch (quantity) {
+    case Quantity::radiosity:
+      return emission + reflectance * irradiance;
+    case Quantity::irradiance:
+      return irradiance;
+    case Quantity::emission:
+      return emission;
+    default:
+      return emission + reflectance * irradiance - irradiance;
+  }
+}
+
+// Mean over the whole area of a node, sealed parts included.
+void node_values(const State& state, NodeId id, Quantity quantity, double* out) {
+  const Scene& scene = *state.forest.scene;
+  const Node& node = state.forest.nodes[id];
+  const size_t patch = static_cast<size_t>(state.forest.surfaces[node.surface].patch) * state.bands;
+  for (int b = 0; b < state.bands; ++b) {
+    const double irradiance =
+        node.exposed * state.irradiance[static_cast<size_t>(id) * state.bands + b];
+    out[b] = value_of(quantity, scene.emission[patch + b], scene.reflectance[patch + b], irradiance);
+  }
+}
+
+}  // namespace
+
+void Solver::Solution::prepare_queries() {
+  leaves = state.forest.leaves();
+  reconstruction.reset();
+}
+
+const Reconstruction& Solver::reconstruction() const {
+  Solution& s = *solution_;
+  if (!s.reconstruction)
+    s.reconstruction = std::make_unique<Reconstruction>(s.state.forest, s.state.bands, s.leaves,
+                                                        s.state.irradiance);
+  return *s.reconstruction;
+}
+
+bool Solver::solved() const { return solution_ && solution_->linked; }
+
+void Solver::require_solved() const {
+  if (!solved()) fail(Status::state, "there is no solution yet: call hrad_solve first");
+}
+
+void Solver::query_patches(Quantity quantity, int32_t side, int64_t first, int64_t count,
+                           double* out) const {
+  check_quantity(quantity, side);
+  check_range("patches", first, count, scene_.patch_count());
+  const int bands = scene_.bands;
+  if (quantity == Quantity::emission) {
+    for (int64_t k = 0; k < count; ++k) {
+      const int64_t patch = first + k;
+      const bool emits = !scene_.has(patch, patch_dropped) && !scene_.has(patch, patch_blocker) &&
+                         (side == 0 || scene_.has(patch, patch_two_sided));
+      for (int b = 0; b < bands; ++b)
+        out[k * bands + b] = emits ? scene_.emission[static_cast<size_t>(patch) * bands + b] : 0;
+    }
+    return;
+  }
+  require_solved();
+  const State& state = solution_->state;
+  for (int64_t k = 0; k < count; ++k) {
+    const NodeId root = state.forest.root(first + k, side);
+    if (root >= 0)
+      node_values(state, root, quantity, out + k * bands);
+    else
+      std::fill(out + k * bands, out + (k + 1) * bands, 0.0);
+  }
+}
+
+void Solver::query_points(Quantity quantity, int32_t side, int64_t count, const int64_t* patch,
+                          const double* uv, double* out) const {
+  check_quantity(quantity, side);
+  require_solved();
+  const State& state = solution_->state;
+  const int bands = scene_.bands;
+  constexpr double margin = 1e-9;
+  for (int64_t k = 0; k < count; ++k) {
+    check_range("patch", patch[k], 1, scene_.patch_count());
+    const double u = uv[2 * k], v = uv[2 * k + 1];
+    if (!(u >= -margin && v >= -margin && u + v <= 1 + margin))
+      fail(Status::argument, "point %lld has u = %g, v = %g: it must lie in its patch",
+           static_cast<long long>(k), u, v);
+  }
+  const Reconstruction& linear = reconstruction();
+  for (int64_t k = 0; k < count; ++k) {
+    const NodeId root = state.forest.root(patch[k], side);
+    double* values = out + k * bands;
+    if (root < 0) {
+      std::fill(values, values + bands, 0.0);
+      continue;
+    }
+    double u = std::max(0.0, uv[2 * k]), v = std::max(0.0, uv[2 * k + 1]);
+    if (side == 1) std::swap(u, v);
+    double irradiance[most_bands] = {};
+    const Vec3 point = state.forest.root_triangle(root).at(u, v);
+    const bool sealed = solution_->exposure->can_be_sealed(patch[k], side) &&
+                        solution_->exposure->sealed(patch[k], side, point);
+    if (!sealed) linear.at(state.forest.leaf_at(root, u, v), u, v, irradiance);
+    for (int b = 0; b < bands; ++b) {
+      const size_t at = static_cast<size_t>(patch[k]) * bands + b;
+      values[b] = value_of(quantity, scene_.emission[at], scene_.reflectance[at], irradiance[b]);
+    }
+  }
+}
+
+void Solver::query_sensors(int64_t count, const double* xyz, const double* normal,
+                           double* irradiance, double* standard_error) const {
+  require_solved();
+  const int bands = scene_.bands;
+  if (count < 0) fail(Status::argument, "%lld sensors", static_cast<long long>(count));
+  for (int64_t k = 0; k < 3 * count; ++k)
+    if (!std::isfinite(xyz[k]) || !std::isfinite(normal[k]))
+      fail(Status::argument, "sensor %lld has a coordinate that is not finite",
+           static_cast<long long>(k / 3));
+  for (int64_t k = 0; k < count; ++k)
+    if (!(length({normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]}) > 0))
+      fail(Status::argument, "sensor %lld has a normal of length 0", static_cast<long long>(k));
+  // The noise of n rays is about 1/sqrt(n): a quarter of the accuracy, within bounds.
+  const double wanted = 16 / (params_.accuracy * params_.accuracy);
+  const int rays = static_cast<int>(std::max(1024.0, std::min(65536.0, wanted)));
+  constexpr int groups = 16;  // independent sets, whose spread is the standard error
+  const RayGather gather(solution_->state, *solution_->engine);
+  solution_->team->for_each(count, [&](int64_t k, int) {
+    const Vec3 x{xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]};
+    const Vec3 n = normalized({normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]});
+    Hasher key;
+    key.add(static_cast<uint64_t>(params_.seed));
+    for (int axis = 0; axis < 3; ++axis) {
+      key.add(x[axis]);
+      key.add(n[axis]);
+    }
+    double mean[most_bands] = {}, squares[most_bands] = {};
+    for (int group = 0; group < groups; ++group) {
+      double sum[most_bands] = {}, unused[most_bands] = {};
+      gather.sample(x, n, mix(key.value(), static_cast<uint64_t>(group)), rays / groups, sum, unused);
+      for (int b = 0; b < bands; ++b) {
+        const double value = sum[b] / (rays / groups);
+        mean[b] += value / groups;
+        squares[b] += value * value / groups;
+      }
+    }
+    for (int b = 0; b < bands; ++b) {
+      irradiance[k * bands + b] = mean[b];
+      if (standard_error)
+        standard_error[k * bands + b] =
+            std::sqrt(std::max(0.0, squares[b] - mean[b] * mean[b]) / (groups - 1));
+    }
+  });
+}
+
+int64_t Solver::leaf_count() const {
+  require_solved();
+  return static_cast<int64_t>(solution_->leaves.size());
+}
+
+LeafView Solver::leaf(int64_t index) const {
+  const Forest& forest = solution_->state.forest;
+  const Node& node = forest.nodes[solution_->leaves[index]];
+  const Surface& surface = forest.surfaces[node.surface];
+  LeafView view;
+  view.patch = surface.patch;
+  view.face = scene_.face[surface.patch];
+  view.side = surface.side;
+  view.corners = forest.triangle(node);
+  view.area = forest.area(node);
+  view.exposed = node.exposed;
+  return view;
+}
+
+void Solver::leaf_values(int64_t index, Quantity quantity, double* out) const {
+  node_values(solution_->state, solution_->leaves[index], quantity, out);
+}
+
+void Solver::leaf_corner_radiosity(int64_t index, double* out) const {
+  const State& state = solution_->state;
+  const NodeId leaf = solution_->leaves[index];
+  const Node& node = state.forest.nodes[leaf];
+  const size_t patch =
+      static_cast<size_t>(state.forest.surfaces[node.surface].patch) * scene_.bands;
+  double irradiance[3 * most_bands] = {};
+  if (node.exposed > 0) reconstruction().corners(leaf, irradiance);
+  for (int c = 0; c < 3; ++c)
+    for (int b = 0; b < scene_.bands; ++b)
+      out[c * scene_.bands + b] =
+          scene_.emission[patch + b] + scene_.reflectance[patch + b] * irradiance[c * scene_.bands + b];
+}
+
+void Solver::power_balance(double* emitted, double* absorbed, double* absorbed_back,
+                           double* escaped) const {
+  require_solved();
+  const PowerBalance& balance = solution_->balance;
+  const auto copy = [&](const std::vector<double>& from, double* to) {
+    if (!to) return;
+    for (int b = 0; b < scene_.bands; ++b) to[b] = from.empty() ? 0 : from[b];
+  };
+  copy(balance.emitted, emitted);
+  copy(balance.absorbed, absorbed);
+  copy(balance.absorbed_back, absorbed_back);
+  copy(balance.escaped, escaped);
+}
+
+}  // namespace hrad

@@ -1,0 +1,23 @@
+// What the stated accuracy means for the stages: thresholds of the oracle in each round, and when
+// the sweeps may stop. Floor 8 (solver).
+#pragma once
+
+#include "links/oracle.h"
+#include "solver/params.h"
+#include "stages/state.h"
+
+namespace hrad {
+
+// Refinement rounds before the first measurement. Fewer lose light: a source that is still dark when
+// its links are weighed is never refined for.
+constexpr int first_rounds = 5;
+
+// The oracle of round `round` (0: the Linking Stage). scale: 1, less after a measurement has shown
+// that the accuracy was missed. Thresholds fall to their last value over the first rounds
+// (multigridding: Hanrahan, Saltzman, Aupperle 1991, Section 4.3).
+OracleSettings oracle_of_round(const Params& params, const State& state, int round, double scale);
+
+// Share of the transported light that may be missing when the sweeps of a round stop.
+double sweep_tolerance(const Params& params, int round);
+
+}  // namespace hrad

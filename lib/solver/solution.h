@@ -1,0 +1,43 @@
+// What a solver holds from the Initial Stage on. Floor 8 (solver).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "machine/thread_team.h"
+#include "solver/measure.h"
+#include "solver/reconstruction.h"
+#include "solver/solver.h"
+#include "stages/convergence.h"
+#include "stages/state.h"
+
+namespace hrad {
+
+struct Solver::Solution {
+  explicit Solution(const Scene& scene) : state(scene) {}
+
+  std::unique_ptr<ThreadTeam> team;
+  std::unique_ptr<VisibilityEngine> engine;
+  std::unique_ptr<Exposure> exposure;
+  State state;
+
+  // How far the solve has come, so that it can stop anywhere and go on to the same bits.
+  bool linked = false;
+  int rounds_done = 0;           // refinement rounds whose sweeps are done
+  int tightened = 0;             // times the thresholds were lowered after measuring
+  double scale = 1;              // of the thresholds, after that
+  bool sweeping = false;         // a round is refined, its sweeps are under way
+  Convergence convergence{0};    // of these sweeps
+  bool converged = false;        // the last sweeps stood still
+  bool finished = false;         // measured
+  double accuracy_reached = 0;   // the accuracy that was asked for then
+  uint64_t light_hash = 0;       // of emission and reflectance at that time
+
+  // For queries, made when the solve is finished or stopped.
+  void prepare_queries();
+  std::vector<NodeId> leaves;  // in key order
+  std::unique_ptr<Reconstruction> reconstruction;
+  PowerBalance balance;
+};
+
+}  // namespace hrad

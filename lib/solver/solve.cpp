@@ -1,0 +1,230 @@
+// Solving: the stages in the order of the paper's Fig. 1. Floor 8 (solver).
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "solver/progress_clock.h"
+#include "solver/schedule.h"
+#include "solver/solution.h"
+#include "stages/gather.h"
+#include "stages/linking.h"
+#include "stages/refine.h"
+#include "stages/sweep.h"
+
+namespace hrad {
+namespace {
+
+// How often the thresholds are lowered when a measurement shows that the accuracy was missed.
+constexpr int most_tightenings = 4;
+
+double user_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+}
+
+uint64_t hash_of_light(const Scene& scene) {
+  Hasher hash;
+  for (double value : scene.emission) hash.add(value);
+  for (double value : scene.reflectance) hash.add(value);
+  return hash.value();
+}
+
+// The share of a leaf's or a root's area that is exposed.
+void measure_exposure(State& state, const StageTools& tools) {
+  const LinkSampler sampler(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
+                            tools.oracle.near_ratio);
+  tools.team.for_each(state.forest.surface_count(), [&](int64_t k, int) {
+    state.forest.nodes[k].exposed = sampler.exposed_share(state.forest.nodes[k]);
+  });
+}
+
+}  // namespace
+
+// One call of solve(): the stages with what they share.
+class Solver::Run {
+ public:
+  Run(Solver& solver)
+      : solver_(solver), solution_(*solver.solution_), state_(solver.solution_->state),
+        params_(solver.params_),
+        clock_([&solver](const Progress& p) {
+          return !solver.stop_requested_.load(std::memory_order_relaxed) &&
+                 (!solver.progress_ || solver.progress_(p));
+        }) {}
+
+  Status run() {
+    if (params_.refine == 0 && !solution_.linked)
+      fail(Status::state, "there are no links to sweep over: solve once with refine=1 before");
+    start_over_if_the_light_changed();
+    if (!solution_.linked && !link()) return Status::stopped;
+    if (params_.refine == 0) {
+      if (!sweep(first_rounds)) return Status::stopped;
+      return finish();
+    }
+    for (;;) {
+      while (solution_.rounds_done < rounds_wanted())
+        if (!round()) return Status::stopped;
+      const Status status = finish();
+      if (status != Status::ok || !tighten()) return status;
+    }
+  }
+
+ private:
+  int rounds_wanted() const { return first_rounds + solution_.tightened; }
+  bool out_of_sweeps() const { return solver_.stats_.iterations >= params_.max_iterations; }
+
+  StageTools tools(int oracle_round) {
+    return {*solution_.team, *solution_.engine, *solution_.exposure,
+            oracle_of_round(params_, state_, oracle_round, solution_.scale),
+            [this](double fraction) { return clock_.report(fraction, solver_.stats_.iterations); }};
+  }
+
+  void start_over_if_the_light_changed() {
+    const uint64_t light = hash_of_light(solver_.scene_);
+    if (solution_.linked && light != solution_.light_hash) {
+      reset_to_emission(state_);
+      solution_.sweeping = false;
+      solution_.finished = false;
+      // The mesh stays; the last round looks at every link again under the new light.
+      solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
+    }
+    solution_.light_hash = light;
+    if (params_.accuracy < solution_.accuracy_reached) {
+      solution_.finished = false;
+      solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
+    }
+    solution_.accuracy_reached = params_.accuracy;
+  }
+
+  bool link() {
+    const auto start = std::chrono::steady_clock::now();
+    clock_.begin("linking", 0.02, 0.25);
+    StageTools stage = tools(0);
+    measure_exposure(state_, stage);
+    reset_to_emission(state_);
+    state_.links.resize(state_.forest.nodes.size());
+    const bool done = link_pairs(state_, stage, expected_brightness(state_));
+    solver_.stats_.seconds_linking +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!done) return false;
+    solution_.linked = true;
+    solution_.rounds_done = 0;
+    return sweep(0);
+  }
+
+  bool round() {
+    const int number = solution_.rounds_done + 1;
+    if (!solution_.sweeping) {
+      const double from = 0.25 + 0.7 * share_of_rounds(number - 1);
+      clock_.begin("refine", from, from + 0.6 * (share_of_rounds(number) - share_of_rounds(number - 1)));
+      const auto start = std::chrono::steady_clock::now();
+      const Brightness brightness = measure_brightness(state_, *solution_.team);
+      const bool done = refine_links(state_, tools(number), brightness);
+      solver_.stats_.seconds_iterative +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (!done) return false;
+      ++solver_.stats_.rounds;
+    }
+    if (!sweep(number)) return false;
+    solution_.rounds_done = number;
+    return true;
+  }
+
+  // Later rounds are the longer ones.
+  double share_of_rounds(int done) const {
+    const double all = rounds_wanted();
+    return std::min(1.0, (done * (done + 1.0)) / (all * (all + 1.0)));
+  }
+
+  // Gathering and push-pull until the radiosity transported stands still; goes on where a stop broke
+  // it off.
+  bool sweep(int round) {
+    const auto start = std::chrono::steady_clock::now();
+    clock_.begin("sweep", clock_.fraction(), clock_.fraction() + 0.02);
+    if (!solution_.sweeping) {
+      solution_.sweeping = true;
+      solution_.convergence = Convergence(sweep_tolerance(params_, round));
+    }
+    bool going_on = true;
+    solution_.converged = false;
+    while (going_on && !solution_.converged && !out_of_sweeps()) {
+      gather(state_, *solution_.team);
+      push_pull(state_, *solution_.team);
+      ++solver_.stats_.iterations;
+      solution_.converged =
+          solution_.convergence.reached(transported(state_, *solution_.team));
+      going_on = clock_.report(0.5, solver_.stats_.iterations);
+    }
+    solver_.stats_.seconds_iterative +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!going_on) return false;
+    solution_.sweeping = false;
+    return true;
+  }
+
+  // Measures the solution and makes it ready for queries.
+  Status finish() {
+    clock_.begin("measure", 0.95, 1.0);
+    const StageTools stage = tools(first_rounds);
+    if (!solution_.finished) {
+      const ErrorEstimate estimate = estimate_error(state_, stage, params_.accuracy);
+      solver_.stats_.error_estimate = estimate.error;
+      solver_.stats_.error_standard_error = estimate.standard_error;
+      solution_.balance = measure_balance(state_, stage);
+      state_.rays += estimate.rays + solution_.balance.rays;
+      solution_.finished = true;
+    }
+    clock_.report(1.0, solver_.stats_.iterations);
+    return solution_.converged ? Status::ok : Status::not_converged;
+  }
+
+  // True when the measurement says that the accuracy is missed and there is something left to try.
+  bool tighten() {
+    const double error = solver_.stats_.error_estimate;
+    const double sure = error - solver_.stats_.error_standard_error;
+    if (!(sure > params_.accuracy) || solution_.tightened >= most_tightenings || params_.tolerance > 0 ||
+        params_.oracle == "energy")
+      return false;
+    solution_.scale *= std::max(0.3, std::min(0.7, 0.7 * params_.accuracy / error));
+    ++solution_.tightened;
+    solution_.finished = false;
+    return true;
+  }
+
+  Solver& solver_;
+  Solution& solution_;
+  State& state_;
+  const Params& params_;
+  ProgressClock clock_;
+};
+
+Status Solver::solve() {
+  if (params_.linking != "auto" && params_.linking != "pairs")
+    fail(Status::unsupported, "linking=%s is not in this version: use linking=pairs or auto",
+         params_.linking.c_str());
+  const double cpu = user_seconds();
+  partition();
+  begun_ = true;
+  // A stop that was asked for before the solve began holds too.
+  Status status;
+  try {
+    status = Run(*this).run();
+  } catch (...) {
+    // Half a round may be in place: nothing of it can be trusted.
+    solution_.reset();
+    stats_ = Stats{};
+    stop_requested_.store(false);
+    throw;
+  }
+  stop_requested_.store(false);
+  stats_.converged = status == Status::ok;
+  stats_.cpu_seconds += user_seconds() - cpu;
+  solution_->prepare_queries();
+  return status;
+}
+
+}  // namespace hrad

@@ -1,0 +1,125 @@
+// The solver apart from solving: the Initial Stage, the machine, counts and the hash.
+// Floor 8 (solver).
+#include "solver/solver.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "machine/topology.h"
+#include "solver/export.h"
+#include "solver/solution.h"
+
+namespace hrad {
+namespace {
+
+int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<int64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+Solver::Solver() = default;
+Solver::~Solver() = default;
+
+void Solver::partition() {
+  if (solution_) return;
+  if (scene_.patch_count() == 0)
+    fail(Status::scene, "the scene has no patches: load, make or add some before solving");
+  const auto start = std::chrono::steady_clock::now();
+  auto solution = std::make_unique<Solution>(scene_);
+  const PoolPlan plan =
+      plan_pool(read_topology(), params_.threads, params_.smt != 0, params_.bind != 0);
+  solution->team = std::make_unique<ThreadTeam>(plan.threads, plan.binding);
+  solution->engine =
+      make_visibility_engine(scene_, params_.visibility, params_.instruction_set, *solution->team);
+  solution->exposure = std::make_unique<Exposure>(scene_, *solution->engine);
+  solution_ = std::move(solution);
+  stats_.seconds_initial +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+int32_t Solver::patch_owner(int64_t patch) const {
+  if (!solution_) fail(Status::state, "no patch has an owner yet: call hrad_partition first");
+  if (patch < 0 || patch >= scene_.patch_count())
+    fail(Status::argument, "patch %lld: the scene has %lld patches, from 0 on",
+         static_cast<long long>(patch), static_cast<long long>(scene_.patch_count()));
+  return 0;
+}
+
+std::string Solver::describe_machine() const {
+  const Topology topology = read_topology();
+  return describe(topology,
+                  plan_pool(topology, params_.threads, params_.smt != 0, params_.bind != 0));
+}
+
+Stats Solver::stats() const {
+  Stats s = stats_;
+  s.patches = scene_.patch_count();
+  s.memory_peak_bytes = peak_memory();
+  if (!solution_) return s;
+  const Solution& solution = *solution_;
+  const State& state = solution.state;
+  s.threads = solution.team->size();
+  s.elements = static_cast<int64_t>(state.forest.nodes.size());
+  s.leaves = static_cast<int64_t>(solution.leaves.size());
+  s.rays = state.rays;
+  s.pairs = state.pairs;
+  s.links = 0;
+  for (const LinkRun& run : state.links) s.links += run.count();
+  s.link_bytes = s.links * static_cast<int64_t>(sizeof(Link));
+  s.node_bytes = s.elements * static_cast<int64_t>(sizeof(Node) + sizeof(LinkRun) +
+                                                   3 * sizeof(float) * state.bands);
+  s.area = s.sealed_area = 0;
+  for (size_t k = 0; k < state.forest.surfaces.size(); ++k) {
+    s.area += state.forest.surfaces[k].area;
+    s.sealed_area += state.forest.surfaces[k].area * (1 - state.forest.nodes[k].exposed);
+  }
+  s.back_share = solution.balance.back_share;
+  return s;
+}
+
+uint64_t Solver::state_hash() const {
+  require_solved();
+  const State& state = solution_->state;
+  Hasher hash;
+  for (const ParamRow& row : param_table())
+    if (row.is_result) {
+      hash.add(row.name);
+      hash.add(param_text(params_, row).c_str());
+    }
+  hash.add(static_cast<uint64_t>(scene_.patch_count()));
+  for (int64_t patch = 0; patch < scene_.patch_count(); ++patch) {
+    const Triangle t = scene_.triangle(patch);
+    for (const Vec3& p : {t.a, t.b, t.c})
+      for (int axis = 0; axis < 3; ++axis) hash.add(p[axis]);
+    hash.add(static_cast<uint64_t>(scene_.flags[patch]));
+  }
+  for (double value : scene_.emission) hash.add(value);
+  for (double value : scene_.reflectance) hash.add(value);
+  for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
+    const Node& node = state.forest.nodes[k];
+    hash.add(key_of(state.forest, node));
+    hash.add(static_cast<uint64_t>(node.first_child + 1));
+    hash.add(node.exposed);
+    for (const Link& link : state.links[k].links()) {
+      hash.add(static_cast<uint64_t>(link.source));
+      hash.add(link.weight);
+    }
+  }
+  for (float value : state.radiosity) hash.add(value);
+  return hash.value();
+}
+
+void Solver::export_file(const std::string& path) const {
+  const auto start = std::chrono::steady_clock::now();
+  export_solution(*this, path);
+  stats_.seconds_output +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace hrad
