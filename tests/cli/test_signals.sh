@@ -3,7 +3,7 @@
 
 # Far longer than any test may take when nothing stops it.
 start() {
-  "$HRAD" solve classroom-x10 --accuracy 0.0005 -o result.csv >out 2>err &
+  "$HRAD" solve classroom --accuracy 0.0005 -o result.csv >out 2>err &
   process=$!
   sleep 1
 }
