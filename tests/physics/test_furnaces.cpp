@@ -27,7 +27,7 @@ struct Exposure {
   std::vector<double> uv;
   std::vector<double> lost;  // share of a point's rays that meet a black back or nothing
   double sealed = 0;         // share of the points all of whose rays are lost
-  double open = 0;           // share of the points of which some are
+  double open = 0;           // share of the rays of the other points that are lost
 };
 
 Exposure exposure(const MonteCarlo& reference, Side side, int points) {
@@ -38,7 +38,7 @@ Exposure exposure(const MonteCarlo& reference, Side side, int points) {
     const Estimate estimate = reference.at_point(side, a * (1 - b), a * b, 2, 6);
     e.lost.push_back(estimate.black + estimate.escaped);
     e.sealed += (e.lost.back() == 1) / static_cast<double>(points);
-    e.open += (e.lost.back() > 0 && e.lost.back() < 1) / static_cast<double>(points);
+    if (e.lost.back() < 1) e.open += e.lost.back() / points;
   }
   return e;
 }
@@ -74,7 +74,7 @@ bool check_furnace(ApiSolver& solver, const char* name, double tolerance) {
     }
   }
   if (open > 0.001 * area) {
-    std::printf("%-16s not closed: %.1f %% of its area sees out\n", name, 100 * open / area);
+    std::printf("%-16s not closed: %.1f %% of the rays are lost\n", name, 100 * open / area);
     return false;
   }
 
