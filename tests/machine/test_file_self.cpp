@@ -190,7 +190,7 @@ int main() {
       HRAD_TEST(two_writers_in_one_process),
       HRAD_TEST(mode_and_links_are_kept),
       HRAD_TEST(the_longest_name_works),
-      HRAD_TEST(refused_targets),
+      HRAD_TEST(reading), HRAD_TEST(refused_targets),
       HRAD_TEST(failed_writes_leave_nothing),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
