@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The program of the README, compiled from its text by the README's command and run: it says how much
-# power was emitted and leaves its table.
+# The program of the README, compiled from its text by the README's command and run: it says how
+# much power was emitted and leaves its table.
 set -euo pipefail
 
 folder=$(mktemp -d)
