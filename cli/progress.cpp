@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numbers.h"
 #include "signals.h"
 
 namespace hrad::cli {
@@ -22,7 +23,15 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
+void Progress::announce_stage(const hrad_progress& progress) {
+  if (progress.stage == nullptr || stage_ == progress.stage) return;
+  stage_ = progress.stage;
+  terminal_->say("stage " + stage_ + " after " + seconds_text(progress.seconds) + " and " +
+                 std::to_string(progress.iteration) + " iterations");
+}
+
 void Progress::show(const hrad_progress& progress) {
+  if (terminal_->verbosity() == Verbosity::verbose) announce_stage(progress);
   if (!terminal_->shows_line()) return;
   const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
   percent_ = std::max(percent_, static_cast<int>(100 * fraction));

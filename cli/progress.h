@@ -1,4 +1,5 @@
-// What the progress line says: stage, percent, time left. CLI: public headers only.
+// What the progress line says (stage, percent, time left), and with --verbose a message for each
+// stage. CLI: public headers only.
 #pragma once
 
 #include <string>
@@ -14,8 +15,11 @@ class Progress {
   void show(const hrad_progress& progress);
 
  private:
+  void announce_stage(const hrad_progress& progress);
+
   Terminal* terminal_;
-  int percent_ = 0;  // the largest shown: the line never runs backwards
+  std::string stage_;  // the last one announced
+  int percent_ = 0;    // the largest shown: the line never runs backwards
 };
 
 }  // namespace hrad::cli

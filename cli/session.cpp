@@ -85,6 +85,8 @@ void Session::load() {
   check(status);
   signals::check();
   warn_of_diagnostics();
+  if (terminal_.verbosity() == Verbosity::verbose)
+    terminal_.say("loaded " + scene + ": " + std::to_string(patches()) + " patches");
 }
 
 int Session::solve() {

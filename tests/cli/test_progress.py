@@ -60,6 +60,12 @@ def main():
     assert result.returncode == 0
     assert "\r" not in result.stderr and " %" not in result.stderr, repr(result.stderr)
 
+    result = subprocess.run(SOLVE + ["-v"], capture_output=True, text=True,
+                            stdin=subprocess.DEVNULL)
+    assert result.returncode == 0
+    assert "hrad: loaded cornell: 36 patches\n" in result.stderr, result.stderr
+    assert "hrad: stage linking after " in result.stderr, result.stderr
+
 
 if __name__ == "__main__":
     sys.exit(main())

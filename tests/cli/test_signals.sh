@@ -3,9 +3,9 @@
 
 # Far longer than any test may take when nothing stops it.
 start() {
-  "$HRAD" solve classroom --accuracy 0.0005 -o result.csv >out 2>err &
+  "$HRAD" solve classroom --accuracy 0.0005 -v -o result.csv >out 2>err &
   process=$!
-  sleep 1
+  until grep -q '^hrad: stage' err || ! kill -0 $process; do sleep 0.1; done
 }
 
 for signal in INT TERM USR1; do
