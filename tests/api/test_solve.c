@@ -48,7 +48,8 @@ static void furnace_is_flat(void** state) {
   double* b = malloc((size_t)patches * BANDS * sizeof *b);
   (void)state;
   assert_ok(hrad_query_patches(solver, HRAD_RADIOSITY, HRAD_FRONT, 0, patches, b));
-  for (int64_t i = 0; i < patches * BANDS; ++i) assert_near(b[i], 2, 0.02); /* E/(1-rho) */
+  for (int64_t i = 0; i < patches * BANDS; ++i)
+    assert_near(b[i], 2, 0.1 * 2); /* E/(1-rho), by the accuracy */
   free(b);
   hrad_destroy(&solver);
 }
