@@ -31,7 +31,6 @@ constexpr DeskSpot desk_spots[desk_object_count / 2] = {
     {{60, 60, 0}, {180, 60, 40}, {30, 10, 10}, false},    // pencil case
     {{50, 200, 0}, {120, 170, 12}, {30, 40, 20}, true},   // second book
     {{310, 60, 0}, {40, 20, 12}, {10, 5, 4}, false},      // eraser
-    {{290, 120, 0}, {250, 30, 3}, {50, 5, 2}, false},     // ruler
 };
 constexpr int32_t spot_slack = 10;  // an object is moved by up to this along x and y
 
