@@ -132,9 +132,9 @@ void furnish(Scene& scene, Point room, const Palette& p) {
   const Profile chair{{0, 0},     {30, 0},    {30, 420},  {390, 420}, {390, 0}, {420, 0},
                       {420, 450}, {480, 850}, {450, 850}, {390, 450}, {0, 450}};
   extrusion(chair, 0, 0, 420, place.at({2290, 1900, 0}), p.chair).add_to(scene);
-  // Both stand against a wall.
+  // The couch stands near a wall, the cabinet is pressed to one.
   const Profile couch{{0, 0}, {850, 0}, {850, 420}, {350, 420}, {0, 800}};
-  extrusion(couch, 0, 0, 1900, place.at({900, 0, 0}), p.couch).add_to(scene);
+  extrusion(couch, 0, 0, 1900, place.at({900, 80, 0}), p.couch).add_to(scene);
   add_box(scene, place, {0, 1100, 0}, {450, 2300, 1900}, p.cabinet);
 }
 

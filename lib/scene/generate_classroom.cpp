@@ -22,7 +22,7 @@ constexpr int32_t bay = 2400, height = 3000;
 constexpr int32_t window_low = 900, window_high = 2400, window_start = 500, window_end = 1900;
 constexpr int32_t recess = 200;
 constexpr int32_t first_desk = 2000, desk_pitch = 1200, last_desk_to_back_wall = 1600;
-constexpr int32_t bookcase_width = 1600;
+constexpr int32_t bookcase_width = 1600, bookcase_off_wall = 20;
 constexpr int boards_with_books = 4, books_on_a_board = 6;
 
 struct Layout {
@@ -185,7 +185,8 @@ void add_doors(Scene& scene, const Layout& layout, const Palette& p) {
 
 void add_bookcases(Scene& scene, const Layout& layout, const Palette& p) {
   for (int column = 0; column < layout.columns; ++column) {
-    const Place place{{column * bay + (bay - bookcase_width) / 2, layout.depth(), 0}};
+    const Place place{
+        {column * bay + (bay - bookcase_width) / 2, layout.depth() - bookcase_off_wall, 0}};
     add_bookcase(scene, place, bookcase_width, p.bookcase);
     for (int board = 0; board < boards_with_books; ++board)
       add_bookcase_books(scene, place, bookcase_width, board, books_on_a_board,

@@ -34,7 +34,7 @@ void generate_furnished_room(Scene& scene, int) {
   add_chair(scene, {{3050, 1280, 0}, 2}, dark_wood);
 
   constexpr int32_t bookcase_width = 1200;
-  const Place bookcase{{600, size.y, 0}};
+  const Place bookcase{{600, size.y - 20, 0}};
   add_bookcase(scene, bookcase, bookcase_width, wood);
   for (int board = 0; board < 3; ++board)
     add_bookcase_books(scene, bookcase, bookcase_width, board, 4, mix(static_cast<uint64_t>(board)),

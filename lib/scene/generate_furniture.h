@@ -31,7 +31,8 @@ void add_bookcase_books(Scene& scene, const Place& place, int32_t width, int boa
                         uint64_t seed, const int32_t (&covers)[3]);
 
 // The objects that may lie on a desk, numbered in the order in which a desk fills up: books and
-// notebooks first, erasers last. Each is one box in a spot of its own. `seed` varies size and place.
+// notebooks first, erasers last. Each is one box in a spot of its own. `seed` varies size and
+// place.
 constexpr int desk_object_count = 12;
 void add_desk_object(Scene& scene, const Place& desk, int object, uint64_t seed,
                      const int32_t (&covers)[3]);
