@@ -91,7 +91,8 @@ void WholeFile::write(const void* data, size_t size) {
   buffer_.insert(buffer_.end(), bytes, bytes + size);
 }
 
-void WholeFile::commit() {
+void WholeFile::finish() {
+  if (file_ < 0) return;
   write_out(buffer_.data(), buffer_.size());
   buffer_.clear();
   // Some file systems have no fsync and say EINVAL; everything else is data that may be lost.
@@ -100,6 +101,10 @@ void WholeFile::commit() {
   const int close_error = errno;
   file_ = -1;
   if (closed != 0 && close_error != EINTR) fail_here("write", close_error);
+}
+
+void WholeFile::commit() {
+  finish();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_here("replace", errno);
   temporary_.clear();
   // The new name must survive a crash too. From here the file is whole: a folder that can't be

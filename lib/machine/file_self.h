@@ -23,7 +23,10 @@ class WholeFile {
 
   void write(const void* data, size_t size);
   void text(const std::string& text) { write(text.data(), text.size()); }
-  void commit();  // once, as the last call
+  // Writes everything out and closes the temporary: after it only the rename can fail. For several
+  // files that belong together, finish all, then commit all.
+  void finish();
+  void commit();  // once, as the last call; finishes what is not
 
  private:
   [[noreturn]] void fail_here(const char* step, int error) const;

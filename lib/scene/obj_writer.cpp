@@ -138,6 +138,8 @@ void write_obj(const Scene& scene, const std::string& path) {
 
   mtl.text("# Kd: reflectance; Ke: radiant exitance, W/m2\n");
   mtl.text(materials.mtl());
+  mtl.finish();
+  obj.finish();
   // The materials first: what refers to them appears when they are there.
   mtl.commit();
   obj.commit();

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "scene/edge_fan.h"
 #include "scene/weld.h"
 
 namespace hrad {
@@ -28,8 +29,7 @@ struct Edge {
   }
 };
 
-std::vector<Edge> sorted_edges(const Scene& scene) {
-  const std::vector<int32_t> position = weld(scene.vertices);
+std::vector<Edge> sorted_edges(const Scene& scene, const std::vector<int32_t>& position) {
   std::vector<Edge> edges;
   edges.reserve(3 * scene.corners.size());
   for (int64_t i = 0; i < scene.patch_count(); ++i) {
@@ -69,47 +69,51 @@ struct Connection {
   std::vector<int32_t> open;
 };
 
-// An edge of two patches in opposite directions joins them. An edge of more is where solids touch
-// if the patches of each set that meet there are such pairs; then it joins nothing. Any other edge
-// is open, and joins its patches.
-Connection connect(const Scene& scene) {
-  const std::vector<Edge> edges = sorted_edges(scene);
-  Connection result{Sets(scene.corners.size()), {}};
-  const auto group_end = [&](size_t begin) {
-    size_t end = begin;
-    while (end < edges.size() && edges[end].same_place(edges[begin])) ++end;
-    return end;
-  };
-  const auto is_pair = [](const Edge& a, const Edge& b) { return a.reversed != b.reversed; };
+// The corner of a patch that lies off an edge.
+Vec3 apex_of(const Scene& scene, const std::vector<int32_t>& position, const Edge& edge) {
+  for (int32_t corner : scene.corners[edge.patch])
+    if (position[corner] != edge.low && position[corner] != edge.high)
+      return scene.vertices[corner];
+  return {};  // not met: such a patch has no area
+}
 
-  std::vector<size_t> others;  // where the groups of any other form begin
+// A vertex of each position.
+std::vector<int32_t> vertex_of_position(const std::vector<int32_t>& position) {
+  std::vector<int32_t> vertex(position.size());
+  for (size_t i = 0; i < position.size(); ++i) vertex[position[i]] = static_cast<int32_t>(i);
+  return vertex;
+}
+
+// An edge of two patches in opposite directions joins them. At an edge of more, several solids (or
+// one that touches itself) meet: those patches are joined that have solid between them. Any other
+// edge is open and joins all its patches.
+Connection connect(const Scene& scene) {
+  const std::vector<int32_t> position = weld(scene.vertices);
+  const std::vector<int32_t> vertex = vertex_of_position(position);
+  const std::vector<Edge> edges = sorted_edges(scene, position);
+  Connection result{Sets(scene.corners.size()), {}};
+  std::vector<EdgePatch> around;
+  std::vector<std::pair<int32_t, int32_t>> pairs;
   for (size_t begin = 0, end; begin < edges.size(); begin = end) {
-    end = group_end(begin);
-    if (end - begin == 2 && is_pair(edges[begin], edges[begin + 1]))
+    for (end = begin; end < edges.size() && edges[end].same_place(edges[begin]);) ++end;
+    if (end - begin == 2 && edges[begin].reversed != edges[begin + 1].reversed) {
       result.sets.join(edges[begin].patch, edges[begin + 1].patch);
-    else
-      others.push_back(begin);
-  }
-  // All are judged by the sets as they are now, so that their order means nothing.
-  std::vector<size_t> open;
-  std::vector<std::pair<int32_t, bool>> members;  // set, direction
-  for (size_t begin : others) {
-    members.clear();
-    for (size_t i = begin, end = group_end(begin); i < end; ++i)
-      members.emplace_back(result.sets.find(edges[i].patch), edges[i].reversed);
-    std::sort(members.begin(), members.end());
-    bool closed = members.size() % 2 == 0;
-    for (size_t i = 0; closed && i < members.size(); i += 2)
-      closed = members[i].first == members[i + 1].first &&
-               members[i].second != members[i + 1].second &&
-               (i == 0 || members[i - 1].first != members[i].first);
-    if (!closed) open.push_back(begin);
-  }
-  for (size_t begin : open)
-    for (size_t i = begin, end = group_end(begin); i < end; ++i) {
+      continue;
+    }
+    around.clear();
+    pairs.clear();
+    for (size_t i = begin; i < end; ++i)
+      around.push_back({apex_of(scene, position, edges[i]), edges[i].patch, edges[i].reversed});
+    if (pair_around_edge(scene.vertices[vertex[edges[begin].low]],
+                         scene.vertices[vertex[edges[begin].high]], around, pairs)) {
+      for (const auto& [a, b] : pairs) result.sets.join(a, b);
+      continue;
+    }
+    for (size_t i = begin; i < end; ++i) {
       result.sets.join(edges[begin].patch, edges[i].patch);
       result.open.push_back(edges[i].patch);
     }
+  }
   return result;
 }
 

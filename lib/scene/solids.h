@@ -14,7 +14,8 @@ struct Solids {
   // Per patch the number of its connected component (through edges; vertices welded by position).
   std::vector<int32_t> component;
   // Per component: every edge is shared by exactly two patches that run along it in opposite
-  // directions, all of them one-sided (blockers included), none dropped: the component has an inside.
+  // directions (where solids touch, two of each, told apart by their angles around the edge), all
+  // of them one-sided (blockers included), none dropped: the component has an inside.
   std::vector<uint8_t> closed;
   // Per component: its signed volume (positive: fronts face outward; negative: a room seen from
   // within), 0 when not closed.

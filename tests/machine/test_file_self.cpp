@@ -95,6 +95,23 @@ void large_and_small_pieces_keep_their_order() {
   CHECK(content(path) == wanted);
 }
 
+void finished_is_not_committed() {
+  Folder folder;
+  const std::string path = folder.path + "/out";
+  {
+    WholeFile file(path);
+    file.text("new");
+    file.finish();
+    CHECK(access(path.c_str(), F_OK) != 0);
+  }
+  CHECK_EQUAL(folder.entries(), 0);
+  WholeFile file(path);
+  file.text("new");
+  file.finish();
+  file.commit();
+  CHECK(content(path) == "new");
+}
+
 void two_writers_in_one_process() {
   Folder folder;
   WholeFile a(folder.path + "/a"), b(folder.path + "/b");
@@ -188,9 +205,11 @@ int main() {
       HRAD_TEST(abandoned_file_leaves_the_old_one),
       HRAD_TEST(large_and_small_pieces_keep_their_order),
       HRAD_TEST(two_writers_in_one_process),
+      HRAD_TEST(finished_is_not_committed),
       HRAD_TEST(mode_and_links_are_kept),
       HRAD_TEST(the_longest_name_works),
-      HRAD_TEST(reading), HRAD_TEST(refused_targets),
+      HRAD_TEST(reading),
+      HRAD_TEST(refused_targets),
       HRAD_TEST(failed_writes_leave_nothing),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -91,7 +91,7 @@ void convex_ones_become_fans() {
 }
 
 void arrow() {
-  // The fan around the first corner would leave the polygon.
+  // A fan is right around the inner corner and the one across, and leaves the polygon elsewhere.
   const Polygon p = {{0, 0, 0}, {2, -1, 0}, {0.5, 0, 0}, {2, 1, 0}};
   check_polygon(p);
   check_polygon({{2, 1, 0}, {0, 0, 0}, {2, -1, 0}, {0.5, 0, 0}});
