@@ -309,8 +309,9 @@ HRAD_API hrad_status hrad_set_progress(hrad_solver *solver, hrad_progress_functi
  * the accuracy is met; goes on from the present state if there is one (parameter refine = 0: sweeps
  * on the present links alone).
  * Returns HRAD_OK, HRAD_NOT_CONVERGED, or HRAD_STOPPED (call it again to go on; the queries answer
- * from the last whole round, or STATE when there is none). Errors: SCENE for an empty scene, MEMORY,
- * UNSUPPORTED for a method that is not in this build. */
+ * from the last whole round, or STATE when there is none). Errors: SCENE for an empty scene, STATE for
+ * refine = 0 without links, UNSUPPORTED for a method that is not in this build, MEMORY; after MEMORY
+ * the solution is gone and the scene and the parameters stay. */
 HRAD_API hrad_status hrad_solve(hrad_solver *solver);
 
 /* [L] Asks a running hrad_solve to stop at the next safe point; the flag is taken back when a solve

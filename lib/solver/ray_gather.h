@@ -21,10 +21,13 @@ class RayGather {
   int64_t sample(Vec3 x, Vec3 n, uint64_t key, int rays, double* sum, double* squares) const;
 
  private:
+  double share(NodeId emitter, double distance2, double at_x, double at_y) const;
+
   const State& state_;
   const VisibilityEngine& engine_;
   std::vector<NodeId> emitters_;      // roots with emission
   std::vector<double> cumulative_;    // their power, running sum, last 1
+  std::vector<double> chance_;        // per surface: of being picked by a shadow ray
 };
 
 }  // namespace hrad

@@ -10,8 +10,9 @@ namespace {
 
 // Error of a patch mean that links may add up to, as a share of the accuracy.
 constexpr double mean_share = 0.5;
-// Error at points, likewise: points may err more than means.
-constexpr double point_share = 2.0;
+// Error at points: this times the root of the accuracy. Means gain from a finer mesh only by what it
+// changes at the next bounce, so points may err more the more accurate the means are to be.
+constexpr double point_share = 0.4;
 // Elements smaller than this share of all area count for less of the error at points.
 constexpr double point_area_share = 1.0 / 4000;
 // Smallest element as a share of all area, at accuracy 1; falls with the square of the accuracy.
@@ -45,7 +46,7 @@ OracleSettings oracle_of_round(const Params& params, const State& state, int rou
   s.power = ease * (params.bf_epsilon > 0 ? params.bf_epsilon
                                           : power * power_share * params.accuracy);
   const double mean = params.tolerance > 0 ? params.tolerance : mean_share * accuracy;
-  const double point = params.tolerance > 0 ? 4 * params.tolerance : point_share * accuracy;
+  const double point = params.tolerance > 0 ? 4 * params.tolerance : point_share * std::sqrt(accuracy);
   s.mean_variance = ease * mean * mean;
   s.point_variance = ease * point * point;
   s.point_area = area * point_area_share;

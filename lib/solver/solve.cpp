@@ -57,16 +57,19 @@ class Solver::Run {
         }) {}
 
   Status run() {
-    if (params_.refine == 0 && !solution_.linked)
-      fail(Status::state, "there are no links to sweep over: solve once with refine=1 before");
     start_over_if_the_light_changed();
     if (!solution_.linked && !link()) return Status::stopped;
     if (params_.refine == 0) {
       if (!sweep(first_rounds)) return Status::stopped;
       return finish();
     }
+    // More sweeps are allowed now than when they ran out.
+    if (solution_.finished && !solution_.converged && !out_of_sweeps()) {
+      solution_.finished = false;
+      if (!sweep(solution_.rounds_done)) return Status::stopped;
+    }
     for (;;) {
-      while (solution_.rounds_done < rounds_wanted())
+      while (solution_.rounds_done < rounds_wanted() && !out_of_sweeps())
         if (!round()) return Status::stopped;
       const Status status = finish();
       if (status != Status::ok || !tighten()) return status;
@@ -206,6 +209,8 @@ Status Solver::solve() {
   if (params_.linking != "auto" && params_.linking != "pairs")
     fail(Status::unsupported, "linking=%s is not in this version: use linking=pairs or auto",
          params_.linking.c_str());
+  if (params_.refine == 0 && !solved())
+    fail(Status::state, "there are no links to sweep over: solve once with refine=1 before");
   const double cpu = user_seconds();
   partition();
   begun_ = true;
@@ -214,9 +219,12 @@ Status Solver::solve() {
   try {
     status = Run(*this).run();
   } catch (...) {
-    // Half a round may be in place: nothing of it can be trusted.
+    // Half a round may be in place, and nothing of it can be trusted: back to the loaded scene.
     solution_.reset();
+    begun_ = false;
+    const double seconds_load = stats_.seconds_load;
     stats_ = Stats{};
+    stats_.seconds_load = seconds_load;
     stop_requested_.store(false);
     throw;
   }

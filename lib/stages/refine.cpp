@@ -55,18 +55,24 @@ void store(State& state, SubtreeResult& result, std::vector<Task>& next) {
   for (size_t at = 0; at < result.nodes.size(); ++at) {
     const SubtreeNode& node = result.nodes[at];
     if (node.first_child < 0) continue;
-    Node& parent = forest.nodes[id[at]];
-    parent.first_child = id[node.first_child];
-    float exposed = 0;
-    for (int child = 0; child < 4; ++child)
-      exposed += forest.nodes[parent.first_child + child].exposed;
-    parent.exposed = exposed / 4;
+    forest.nodes[id[at]].first_child = id[node.first_child];
   }
   if (result.handed_on)
     for (int child = 0; child < 4; ++child) {
       const int32_t at = result.nodes[0].first_child + child;
       next.push_back({id[at], std::move(result.nodes[at].arriving)});
     }
+}
+
+// New elements know better than their parents what is sealed.
+void pull_exposure(Forest& forest) {
+  for (size_t k = forest.nodes.size(); k-- > 0;) {
+    Node& node = forest.nodes[k];
+    if (node.first_child < 0) continue;
+    const Node* child = &forest.nodes[node.first_child];
+    node.exposed =
+        (child[0].exposed + child[1].exposed + child[2].exposed + child[3].exposed) / 4;
+  }
 }
 
 }  // namespace
@@ -105,6 +111,7 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
     finished += static_cast<int64_t>(tasks.size());
     tasks = std::move(next);
   }
+  pull_exposure(state.forest);
   return true;
 }
 
