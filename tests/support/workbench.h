@@ -1,0 +1,101 @@
+// A scene with all that the stages need, for tests that look at one stage at a time, and trees of
+// elements split by hand.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "links/link_sampler.h"
+#include "scene/load.h"
+#include "stages/gather.h"
+#include "stages/linking.h"
+#include "stages/refine.h"
+#include "stages/state.h"
+#include "stages/sweep.h"
+#include "support/check.h"
+
+namespace hrad_test {
+
+// Gives a leaf four children.
+inline void split_node(hrad::Forest& forest, hrad::NodeId id) {
+  const auto first = static_cast<hrad::NodeId>(forest.nodes.size());
+  for (int child = 0; child < 4; ++child) {
+    hrad::Node node = hrad::child_place(forest.nodes[id], child);
+    node.parent = id;
+    forest.nodes.push_back(node);
+  }
+  forest.nodes[id].first_child = first;
+}
+
+// Splits whatever `wanted` says, up to `level`.
+template <class Wanted>
+void split_where(hrad::Forest& forest, int level, Wanted&& wanted) {
+  for (size_t k = 0; k < forest.nodes.size(); ++k) {
+    const hrad::Node& node = forest.nodes[k];
+    if (node.first_child < 0 && node.level < level && wanted(node))
+      split_node(forest, static_cast<hrad::NodeId>(k));
+  }
+}
+
+inline void split_all(hrad::Forest& forest, int level) {
+  split_where(forest, level, [](const hrad::Node&) { return true; });
+}
+
+inline hrad::Scene builtin_scene(const std::string& name) {
+  hrad::Scene scene;
+  hrad::make_builtin_scene(scene, name);
+  return scene;
+}
+
+struct Workbench {
+  explicit Workbench(hrad::Scene s, int threads = 2)
+      : scene(std::move(s)),
+        team(threads),
+        engine(hrad::make_visibility_engine(scene, "builtin", "auto", team)),
+        exposure(scene, *engine),
+        state(scene) {}
+
+  hrad::StageTools tools(const hrad::OracleSettings& oracle) {
+    return {team, *engine, exposure, oracle, [](double) { return true; }};
+  }
+
+  hrad::LinkSampler sampler(double near_ratio = 0.4, uint64_t seed = 1) const {
+    return {state.forest, *engine, exposure, seed, near_ratio};
+  }
+
+  // Arrays as long as the forest, B = E.
+  void prepare() {
+    state.links.resize(state.forest.nodes.size());
+    hrad::reset_to_emission(state);
+  }
+
+  // The Linking Stage, with the exposed shares of the roots.
+  void link(const hrad::OracleSettings& oracle) {
+    const hrad::LinkSampler measure = sampler(oracle.near_ratio, oracle.seed);
+    for (hrad::Node& node : state.forest.nodes) node.exposed = measure.exposed_share(node);
+    prepare();
+    CHECK(hrad::link_pairs(state, tools(oracle), hrad::expected_brightness(state)));
+  }
+
+  void sweep(int times) {
+    for (int k = 0; k < times; ++k) {
+      hrad::gather(state, team);
+      hrad::push_pull(state, team);
+    }
+  }
+
+  void refine(const hrad::OracleSettings& oracle) {
+    const hrad::Brightness brightness = hrad::measure_brightness(state, team);
+    CHECK(hrad::refine_links(state, tools(oracle), brightness));
+  }
+
+  hrad::Scene scene;
+  hrad::ThreadTeam team;
+  std::unique_ptr<hrad::VisibilityEngine> engine;
+  hrad::Exposure exposure;
+  hrad::State state;
+};
+
+}  // namespace hrad_test
