@@ -120,7 +120,7 @@ void print(const std::string& scene, const Settings& settings,
   std::fflush(stdout);
 }
 
-// Two settings in turn, the one that goes first alternating.
+// Solves with two settings in turn, the one that goes first alternating.
 void compare(const std::string& scene, const Options& o) {
   const int64_t pairs = o.runs > 0 ? o.runs : 5;
   std::vector<double> user[2], ratios;
@@ -133,18 +133,26 @@ void compare(const std::string& scene, const Options& o) {
     }
     ratios.push_back(seconds[1] / seconds[0]);
   }
-  std::printf(
-      "%s, %s: user CPU of %s over %s: %.3f (median of %lld pairs, %.3f to %.3f); "
-      "medians %.3f s and %.3f s\n",
-      scene.c_str(), text_of(o.common).c_str(), text_of(o.rivals[1]).c_str(),
-      text_of(o.rivals[0]).c_str(), median(ratios), whole(pairs), smallest(ratios),
-      greatest(ratios), median(user[1]), median(user[0]));
+  const std::string names[2] = {text_of(o.rivals[0]), text_of(o.rivals[1])};
+  std::printf("%s, %s, %lld pairs of solves\n", scene.c_str(), text_of(o.common).c_str(),
+              whole(pairs));
+  for (int i = 0; i < 2; ++i)
+    std::printf("  user CPU       %.3f s (median, %.3f to %.3f), %s\n", median(user[i]),
+                smallest(user[i]), greatest(user[i]), names[i].c_str());
+  std::printf("  ratio          %.3f (median of the pairs, %.3f to %.3f), %s over %s\n",
+              median(ratios), smallest(ratios), greatest(ratios), names[1].c_str(),
+              names[0].c_str());
+  for (double& r : ratios) r = 1 / r;
+  std::printf("  ratio          %.3f (median of the pairs, %.3f to %.3f), %s over %s\n",
+              median(ratios), smallest(ratios), greatest(ratios), names[0].c_str(),
+              names[1].c_str());
   std::fflush(stdout);
 }
 
 void measure(const std::string& scene, const Options& o) {
   if (o.reference_seconds > 0)
     in_child([&](Measurement&) { improve_reference(scene, joined(o.common, o.cases[0]), o); });
+  if (o.reference_only) return;
   const ReferencePlace place = place_of(scene, o);
   for (const Settings& one : o.cases) {
     const Settings settings = joined(o.common, one);

@@ -17,6 +17,7 @@ struct Options {
   std::vector<Settings> rivals;  // --compare
   std::string reference_dir = ".";
   double reference_seconds = 0;
+  bool reference_only = false;
   int64_t points = 10000, sides = 3000;
   uint64_t seed = 1;
   int64_t runs = 0;  // 0: 1, or 5 pairs
@@ -30,10 +31,11 @@ constexpr char kUsage[] =
     "  --runs N                   solves of each case (default 1) or pairs (default 5); medians\n"
     "  --reference-dir DIR        where references are kept (default: the current directory)\n"
     "  --reference-seconds S      first improves each scene's reference by S s of user CPU\n"
+    "  --reference-only           no solves after that\n"
     "  --points N                 random points for the error at points (default 10000)\n"
     "  --sides N                  patch sides for the error of means, all or N (default 3000)\n"
     "  --seed N                   of points and reference (default 1)\n"
-    "  --compare SETTINGS SETTINGS  user CPU of the second over the first, interleaved\n";
+    "  --compare SETTINGS SETTINGS  ratios of user CPU, solves interleaved\n";
 
 inline Settings settings_in(const std::string& text) {
   Settings settings;
@@ -92,6 +94,8 @@ inline Options options_in(const std::vector<std::string>& arguments) {
       o.reference_dir = next(a);
     } else if (a == "--reference-seconds") {
       o.reference_seconds = number(0);
+    } else if (a == "--reference-only") {
+      o.reference_only = true;
     } else if (a == "--points") {
       o.points = static_cast<int64_t>(number(1));
     } else if (a == "--sides") {
