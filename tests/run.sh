@@ -25,8 +25,9 @@ build() {
   cmake --build "$2" --parallel "$(nproc)"
 }
 
+# run_tests FOLDER SECONDS: a test that takes longer than that has lost its way.
 run_tests() {
-  ctest --test-dir "$1" --output-on-failure --no-tests=error -j2
+  ctest --test-dir "$1" --output-on-failure --no-tests=error -j2 --timeout "$2"
 }
 
 bash tests/setup.sh tests
@@ -34,7 +35,7 @@ bash tests/setup.sh tests
 if $full; then
   for sanitizer in asan tsan; do
     build "$sanitizer" "build-$sanitizer"
-    run_tests "build-$sanitizer"
+    run_tests "build-$sanitizer" 3600
   done
 fi
 
@@ -47,4 +48,4 @@ if $full; then
     fi
   done
 fi
-run_tests build-tests
+run_tests build-tests 600
