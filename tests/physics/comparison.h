@@ -141,8 +141,10 @@ struct PointReference {
     for (size_t i = 0; i < sides.size(); ++i) {
       const Spectrum& b = radiosity[sides[i].side][next[sides[i].side]++];
       const Spectrum& rho = reference.surfaces()[sides[i].surface].reflectance;
-      const bool dark = sum(irradiance[i].mean) == 0;
-      if (largest(rho) > 0) disagreeing += dark != (sum(b) == 0);
+      // Sealed: no ray meets a front. (Deep gaps see fronts and yet hardly any light.)
+      const bool dark = irradiance[i].black + irradiance[i].escaped == 1;
+      if (largest(rho) > 0)
+        disagreeing += dark ? sum(b) > 0 : sum(b) == 0 && sum(irradiance[i].mean) > 0;
       sealed += dark;
       if (!dark) sums.add(1, b, rho * irradiance[i].mean, rho * rho * irradiance[i].variance);
     }

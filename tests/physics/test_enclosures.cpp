@@ -128,6 +128,7 @@ void a_sheet_that_divides_a_room() {
 void a_sheet_in_a_furnace() {
   for (bool two_windings : {false, true}) {
     ApiSolver solver(1);
+    solver.set("accuracy", 0.01);
     const int32_t wall = solver.add_material(gray(0.5), gray(1));
     solver.add(box_faces({0, 0, 0}, {1, 1, 1}, true), wall);
     const int32_t both = solver.add_material(gray(0.5), gray(1), HRAD_TWO_SIDED);
@@ -137,9 +138,9 @@ void a_sheet_in_a_furnace() {
     if (two_windings) solver.add(behind, wall);
     solver.solve();
     for (int64_t i = 0; i < solver.size(); ++i)
-      CHECK_NEAR(solver.mean(HRAD_RADIOSITY, i, 1)[0], 2, 0.01);
+      CHECK_NEAR(solver.mean(HRAD_RADIOSITY, i, 1)[0], 2, 0.02);
     const double other = two_windings ? 0 : 2;  // the back of a one-sided patch answers 0
-    CHECK_NEAR(solver.mean(HRAD_RADIOSITY, sheet, 1, HRAD_BACK)[0], other, 0.01);
+    CHECK_NEAR(solver.mean(HRAD_RADIOSITY, sheet, 1, HRAD_BACK)[0], other, 0.02);
   }
 }
 
