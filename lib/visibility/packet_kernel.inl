@@ -1,94 +1,107 @@
-// Sixteen segments of one link against the tree. The segments run from a small region to another, so
-// that one test of a box against their shaft, the convex hull of both regions' boxes, stands for all
-// of them (Haines and Wallace, "Shaft culling for efficient ray-cast radiosity", 1991); only triangles
-// are tested against the sixteen segments themselves. Included within an unnamed namespace after
-// lanes.inl. Floor 4 (visibility).
+#define PLANES
+#define PLANES
+// Sixteen segments of one link against the tree. The segments run from a small region to another,
+// so that one test of a box against their shaft, the convex hull of both regions' boxes, stands for
+// all of them (Haines and Wallace, "Shaft culling for efficient ray-cast radiosity", 1991); only
+// triangles are tested against the sixteen segments themselves. Included within an unnamed
+// namespace after lanes.inl. Floor 4 (visibility).
 
-// The segments, with inactive ones replaced by copies of an active one.
+// The segments, as the tests see them.
 struct Bundle {
-  Sixteen origin[3], direction[3];  // origin relative to `reference`
+  Sixteen place[3], slope[3];       // origins, and 1 / direction
+  Sixteen origin[3], direction[3];  // origins relative to `reference`
   Sixteen moment[3];                // 2 origin x direction
   float reference[3];               // near the origins: keeps products of coordinates small
 };
 
-// One side of the shaft: at the fraction t of the way it lies at origin + t / slope on its axis. A box
-// limits t by (its own side - origin) * slope.
-struct ShaftSide {
-  uint32_t offset;  // of the box's side within TreeNode, in floats
-  float origin, slope;
-};
-
+// The shaft. At the fraction t of the way each of its six sides lies somewhere between its places
+// at the origins and at the ends. A box meets the shaft if for some t it is not beyond any side;
+// each side limits either t from below or 1 - t, the way back from the ends: by (side of the box -
+// origin) * slope. Sides that limit t come first.
 struct Shaft {
-  ShaftSide lower[6], upper[6];  // sides that limit t from below and from above
-  int lower_count = 0, upper_count = 0;
+  uint32_t offset[6];  // of the box's side that meets it within TreeNode, in floats
+  float origin[6], slope[6];
+  int forward = 0;              // how many limit t
+  float low[2][3], high[2][3];  // the boxes around the origins and around the ends
 };
 
-// The shaft's low side rises to meet a box's high side, or its high side the box's low side.
-inline void add_side(Shaft& shaft, float from, float to, uint32_t offset, bool is_low) {
-  const float rise = to - from;
-  const bool limits_above = is_low ? rise >= 0 : rise <= 0;
-  // A side that stays in place either limits nothing or everything.
-  const float size = __builtin_fabsf(rise);
-  const float steep = size > 1 / tree_steepest ? 1 / size : tree_steepest;
-  const float slope = limits_above == is_low ? steep : -steep;
-  if (limits_above)
-    shaft.upper[shaft.upper_count++] = {offset, from, slope};
-  else
-    shaft.lower[shaft.lower_count++] = {offset, from, slope};
-}
-
-// Bit i: the shaft meets box i of eight: for some t between 0 and 1, the box of the places that the
-// segments can be at overlaps with it. Exact but for rounding, since t is the one unknown.
-inline uint32_t meets(const Shaft& shaft, const float* boxes) {
-  Eight near = Eight::all(0), far = Eight::all(1);
-  for (int i = 0; i < shaft.lower_count; ++i) {
-    const ShaftSide& side = shaft.lower[i];
-    near = greatest(near, (Eight::load(boxes + side.offset) - Eight::all(side.origin)) *
-                              Eight::all(side.slope));
+// The smallest and the largest of each of the six rows of sixteen: rows of four at a time, whose
+// columns are then compared.
+inline void find_bounds(const float* const* origins, const float* const* directions, Shaft& shaft) {
+  Four low[8], high[8];
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < 16; i += 4) {
+      const Four origin = Four::load(origins[axis] + i);
+      const Four end = origin + Four::load(directions[axis] + i);
+      low[axis] = i ? least(low[axis], origin) : origin;
+      high[axis] = i ? greatest(high[axis], origin) : origin;
+      low[axis + 4] = i ? least(low[axis + 4], end) : end;
+      high[axis + 4] = i ? greatest(high[axis + 4], end) : end;
+    }
   }
-  for (int i = 0; i < shaft.upper_count; ++i) {
-    const ShaftSide& side = shaft.upper[i];
-    far = least(far, (Eight::load(boxes + side.offset) - Eight::all(side.origin)) *
-                         Eight::all(side.slope));
+  for (int end = 0; end < 2; ++end) {
+    Four* l = low + 4 * end;
+    Four* h = high + 4 * end;
+    l[3] = l[2];
+    h[3] = h[2];
+    transpose(l);
+    transpose(h);
+    float lows[4], highs[4];
+    least(least(l[0], l[1]), least(l[2], l[3])).store(lows);
+    greatest(greatest(h[0], h[1]), greatest(h[2], h[3])).store(highs);
+    for (int axis = 0; axis < 3; ++axis) {
+      shaft.low[end][axis] = lows[axis];
+      shaft.high[end][axis] = highs[axis];
+    }
   }
-  return less_equal(near, far);
 }
 
-inline float smallest(const Sixteen& a) {
-  float lanes[16];
-  a.store(lanes);
-  float result = lanes[0];
-  for (int i = 1; i < 16; ++i) result = lanes[i] < result ? lanes[i] : result;
-  return result;
+// The low sides of the shaft meet the high sides of boxes, the high sides the low ones.
+inline void find_sides(Shaft& shaft) {
+  float steepness[6], origins[6];
+  uint32_t is_forward[6];
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side >> 1;
+    const bool is_low = side & 1;
+    const float from = is_low ? shaft.low[0][axis] : shaft.high[0][axis];
+    const float to = is_low ? shaft.low[1][axis] : shaft.high[1][axis];
+    const float rise = to - from;
+    // A side that stays in place limits either nothing or everything.
+    const float size = __builtin_fabsf(rise);
+    const float steep = 1 / (size > 1 / tree_steepest ? size : 1 / tree_steepest);
+    steepness[side] = is_low ? -steep : steep;
+    is_forward[side] = is_low ? rise < 0 : rise > 0;
+    origins[side] = is_forward[side] ? from : to;
+  }
+  // Without branches: half of these signs can't be predicted.
+  const int forward =
+      is_forward[0] + is_forward[1] + is_forward[2] + is_forward[3] + is_forward[4] + is_forward[5];
+  uint32_t first = 0, second = forward;
+  for (int side = 0; side < 6; ++side) {
+    const uint32_t place = is_forward[side] ? first : second;
+    first += is_forward[side];
+    second += 1 - is_forward[side];
+    shaft.offset[place] = ((side & 1) * 3 + (side >> 1)) * tree_width;
+    shaft.origin[place] = origins[side];
+    shaft.slope[place] = steepness[side];
+  }
+  shaft.forward = forward;
 }
 
-inline float largest(const Sixteen& a) {
-  float lanes[16];
-  a.store(lanes);
-  float result = lanes[0];
-  for (int i = 1; i < 16; ++i) result = lanes[i] > result ? lanes[i] : result;
-  return result;
-}
-
-inline Sixteen load_active(const float* p, uint32_t active) {
-  if (active == 0xffffu) return Sixteen::load(p);
-  float lanes[16];
-  const float filler = p[__builtin_ctz(active)];
-  for (int i = 0; i < 16; ++i) lanes[i] = active >> i & 1 ? p[i] : filler;
-  return Sixteen::load(lanes);
-}
-
-inline void prepare(const SegmentPacket& packet, uint32_t active, Bundle& bundle, Shaft& shaft) {
+inline void prepare(const SegmentPacket& packet, Bundle& bundle, Shaft& shaft) {
   const float* origins[3] = {packet.ox, packet.oy, packet.oz};
   const float* directions[3] = {packet.dx, packet.dy, packet.dz};
+  find_bounds(origins, directions, shaft);
+  find_sides(shaft);
+  const Sixteen zero = Sixteen::all(0), one = Sixteen::all(1);
+  const Sixteen flattest = Sixteen::all(1 / tree_steepest);
   for (int axis = 0; axis < 3; ++axis) {
-    const Sixteen origin = load_active(origins[axis], active);
-    const Sixteen direction = load_active(directions[axis], active);
-    const Sixteen end = origin + direction;
-    const float low = smallest(origin), high = largest(origin);
-    add_side(shaft, low, smallest(end), (3 + axis) * tree_width, true);
-    add_side(shaft, high, largest(end), axis * tree_width, false);
-    bundle.reference[axis] = 0.5f * (low + high);
+    const Sixteen origin = Sixteen::load(origins[axis]);
+    const Sixteen direction = Sixteen::load(directions[axis]);
+    bundle.reference[axis] = 0.5f * (shaft.low[0][axis] + shaft.high[0][axis]);
+    bundle.place[axis] = origin;
+    bundle.slope[axis] = one / where_negative(direction, least(direction, zero - flattest),
+                                              greatest(direction, flattest));
     bundle.origin[axis] = origin - Sixteen::all(bundle.reference[axis]);
     bundle.direction[axis] = direction;
   }
@@ -97,6 +110,46 @@ inline void prepare(const SegmentPacket& packet, uint32_t active, Bundle& bundle
     bundle.moment[axis] = Sixteen::all(2) * (bundle.origin[next] * bundle.direction[last] -
                                              bundle.origin[last] * bundle.direction[next]);
   }
+}
+
+// A shaft with `forward` sides that limit t, spread over lanes.
+template <int forward>
+struct WideShaft {
+  uint32_t offset[6];
+  Eight origin[6], slope[6];
+
+  explicit WideShaft(const Shaft& shaft) {
+    for (int i = 0; i < 6; ++i) {
+      offset[i] = shaft.offset[i];
+      origin[i] = Eight::all(shaft.origin[i]);
+      slope[i] = Eight::all(shaft.slope[i]);
+    }
+  }
+  // Bit i: the shaft meets box i of eight.
+  uint32_t meets(const float* boxes) const {
+    Eight there = Eight::all(0), back = Eight::all(0);
+    for (int i = 0; i < 6; ++i) {
+      const Eight limit = (Eight::load(boxes + offset[i]) - origin[i]) * slope[i];
+      if (i < forward)
+        there = greatest(there, limit);
+      else
+        back = greatest(back, limit);
+    }
+    return less_equal(there + back, Eight::all(1));
+  }
+};
+
+// Bit i: segment i meets the box.
+inline uint32_t segments_meeting(const TreeNode& node, int child, const Bundle& bundle) {
+  Sixteen near = Sixteen::all(0), far = Sixteen::all(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Sixteen place = bundle.place[axis], slope = bundle.slope[axis];
+    const Sixteen a = (Sixteen::all(node.low[axis][child]) - place) * slope;
+    const Sixteen b = (Sixteen::all(node.high[axis][child]) - place) * slope;
+    near = greatest(near, least(a, b));
+    far = least(far, greatest(a, b));
+  }
+  return less_equal(near, far);
 }
 
 // Eight triangles' numbers that do not depend on the segment.
@@ -154,22 +207,69 @@ inline uint32_t crosses_plane(const TreeLeaf& leaf, const PreparedLeaf& prepared
   return less(Sixteen::all(0), part * (whole - part));
 }
 
-inline uint32_t blocked_by_leaf(const TreeLeaf& leaf, int count, const Bundle& bundle,
+// Bit i: the shaft meets the box of triangle i.
+template <int forward>
+inline uint32_t candidates(const TreeLeaf& leaf, const WideShaft<forward>& shaft, float padding) {
+  Eight corner[3][3];
+  float boxes[6 * tree_width];
+  const Eight pad = Eight::all(padding);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int k = 0; k < 3; ++k) corner[k][axis] = Eight::load(leaf.corner[k][axis]);
+    const Eight low = least(least(corner[0][axis], corner[1][axis]), corner[2][axis]);
+    const Eight high = greatest(greatest(corner[0][axis], corner[1][axis]), corner[2][axis]);
+    (low - pad).store(boxes + axis * tree_width);
+    (high + pad).store(boxes + (3 + axis) * tree_width);
+  }
+  return shaft.meets(boxes);
+}
+
+// Bit i: a triangle of the leaf blocks segment i, one of `active`.
+inline uint32_t blocked_by_leaf(const TreeLeaf& leaf, uint32_t todo, const Bundle& bundle,
                                 uint32_t active) {
   PreparedLeaf prepared;
   prepare(leaf, bundle.reference, prepared);
   uint32_t found = 0;
-  for (int i = 0; i < count; ++i) {
+  for (; todo; todo &= todo - 1) {
+    const int i = __builtin_ctz(todo);
     const uint32_t crossing = crosses_plane(leaf, prepared, i, bundle) & (active & ~found);
     if (!crossing) continue;
     const Sixteen a = side_of(prepared, i, 0, bundle), b = side_of(prepared, i, 1, bundle),
                   c = side_of(prepared, i, 2, bundle);
     const Sixteen zero = Sixteen::all(0);
-    const uint32_t inside = less_equal(zero, least(least(a, b), c)) |
-                            less_equal(greatest(greatest(a, b), c), zero);
+    const uint32_t inside =
+        less_equal(zero, least(least(a, b), c)) | less_equal(greatest(greatest(a, b), c), zero);
     found |= crossing & inside;
   }
   return found;
+}
+
+template <int forward>
+uint32_t traverse(const TreeView& tree, const Bundle& bundle, const Shaft& shaft, uint32_t wanted) {
+  const WideShaft<forward> wide(shaft);
+  uint32_t active = wanted;
+  uint32_t stack[tree_stack_size];
+  int size = 0;
+  stack[size++] = 0;
+  while (size) {
+    const TreeNode& node = tree.nodes[stack[--size]];
+    for (uint32_t mask = wide.meets(&node.low[0][0]); mask; mask &= mask - 1) {
+      const int i = __builtin_ctz(mask);
+      const uint32_t child = node.child[i];
+      if (!(child & tree_leaf_bit)) {
+        stack[size++] = child;
+        continue;
+      }
+      const uint32_t some = active & segments_meeting(node, i, bundle);
+      if (!some) continue;
+      const TreeLeaf& leaf = tree.leaves[child & ~tree_leaf_bit];
+      const uint32_t todo = candidates(leaf, wide, tree.padding);
+      if (!todo) continue;
+
+      active &= ~blocked_by_leaf(leaf, todo, bundle, some);
+      if (!active) return wanted;
+    }
+  }
+  return wanted & ~active;
 }
 
 uint32_t blocked(const TreeView& tree, const SegmentPacket& packet) {
@@ -177,23 +277,37 @@ uint32_t blocked(const TreeView& tree, const SegmentPacket& packet) {
   if (!wanted) return 0;
   Bundle bundle;
   Shaft shaft;
-  prepare(packet, wanted, bundle, shaft);
-  uint32_t active = wanted;
-  uint32_t stack[tree_stack_size];
-  int size = 0;
-  stack[size++] = 0;
-  while (size) {
-    const TreeNode& node = tree.nodes[stack[--size]];
-    for (uint32_t mask = meets(shaft, &node.low[0][0]); mask; mask &= mask - 1) {
-      const uint32_t child = node.child[__builtin_ctz(mask)];
-      if (!(child & tree_leaf_bit)) {
-        stack[size++] = child;
-        continue;
-      }
-      const uint32_t leaf = child & ~tree_leaf_bit;
-      active &= ~blocked_by_leaf(tree.leaves[leaf], tree.counts[leaf], bundle, active);
-      if (!active) return wanted;
+
+  if (wanted == 0xffffu) {
+    prepare(packet, bundle, shaft);
+  } else {  // what is not looked at may hold anything: put copies of an active segment there
+    SegmentPacket filled;
+    const int example = __builtin_ctz(wanted);
+    for (int i = 0; i < 16; ++i) {
+      const int from = wanted >> i & 1 ? i : example;
+      filled.ox[i] = packet.ox[from];
+      filled.oy[i] = packet.oy[from];
+      filled.oz[i] = packet.oz[from];
+      filled.dx[i] = packet.dx[from];
+      filled.dy[i] = packet.dy[from];
+      filled.dz[i] = packet.dz[from];
     }
+    prepare(filled, bundle, shaft);
   }
-  return wanted & ~active;
+  switch (shaft.forward) {
+    case 0:
+      return traverse<0>(tree, bundle, shaft, wanted);
+    case 1:
+      return traverse<1>(tree, bundle, shaft, wanted);
+    case 2:
+      return traverse<2>(tree, bundle, shaft, wanted);
+    case 3:
+      return traverse<3>(tree, bundle, shaft, wanted);
+    case 4:
+      return traverse<4>(tree, bundle, shaft, wanted);
+    case 5:
+      return traverse<5>(tree, bundle, shaft, wanted);
+    default:
+      return traverse<6>(tree, bundle, shaft, wanted);
+  }
 }

@@ -2,8 +2,9 @@
 // Included within an unnamed namespace after lanes.inl. Floor 4 (visibility).
 
 struct RayBoxes {
-  uint32_t near_offset[3], far_offset[3];  // of the sides met first and last within TreeNode, in floats
-  float origin[3], slope[3];               // slope: 1 / direction
+  uint32_t near_offset[3],
+      far_offset[3];          // of the sides met first and last within TreeNode, in floats
+  float origin[3], slope[3];  // slope: 1 / direction
 };
 
 inline RayBoxes prepare(const RayQuery& query) {
@@ -111,7 +112,8 @@ void nearest(const TreeView& tree, RayQuery& query) {
     for (const int bottom = size; mask; mask &= mask - 1) {
       const int i = __builtin_ctz(mask);
       int place = size++;
-      for (; place > bottom && stack[place - 1].t < entry[i]; --place) stack[place] = stack[place - 1];
+      for (; place > bottom && stack[place - 1].t < entry[i]; --place)
+        stack[place] = stack[place - 1];
       stack[place] = {node.child[i], entry[i]};
     }
   }

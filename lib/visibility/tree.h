@@ -1,8 +1,9 @@
-// The data of the builtin engine: a bounding-volume hierarchy of eight-wide nodes over blocks of up
-// to eight triangles, all in single precision relative to the middle of the scene and laid out so
-// that one vector instruction looks at eight boxes or eight triangles (Wald, Benthin, Boulos,
-// "Getting rid of packets", 2008; Dammertz et al., "Shallow bounding volume hierarchies", 2008).
-// Floor 4 (visibility).
+// The data of the builtin engine: a bounding-volume hierarchy of eight-wide
+// nodes over blocks of up to eight triangles, all in single precision relative
+// to the middle of the scene and laid out so that one vector instruction looks
+// at eight boxes or eight triangles (Wald, Benthin, Boulos, "Getting rid of
+// packets", 2008; Dammertz et al., "Shallow bounding volume hierarchies",
+// 2008). Floor 4 (visibility).
 #pragma once
 
 #include <cstdint>
@@ -11,26 +12,29 @@
 namespace hrad {
 
 constexpr int tree_width = 8;
-// An entry of Node::child with this bit is a leaf, the rest its number; without it, a node.
+// An entry of Node::child with this bit is a leaf, the rest its number; without
+// it, a node.
 constexpr uint32_t tree_leaf_bit = 0x80000000u;
 // Deepest level of nodes, kept by the builder: bounds the stack of a traversal.
 constexpr int tree_max_depth = 72;
 constexpr int tree_stack_size = tree_max_depth * (tree_width - 1) + tree_width;
-// An unused child has low = +tree_nowhere and high = -tree_nowhere, which no ray meets. Finite, so
-// that no product with it is NaN.
+// An unused child has low = +tree_nowhere and high = -tree_nowhere, which no
+// ray meets. Finite, so that no product with it is NaN.
 constexpr float tree_nowhere = 1e30f;
-// Half of a slab test for a direction of zero; larger would overflow with scenes of 1e15 units.
+// Half of a slab test for a direction of zero; larger would overflow with
+// scenes of 1e15 units.
 constexpr float tree_steepest = 1e20f;
 
-// low[axis][child], high[axis][child]; padded, so that rounding in a traversal loses no triangle.
+// low[axis][child], high[axis][child]; padded, so that rounding in a traversal
+// loses no triangle.
 struct alignas(64) TreeNode {
   float low[3][tree_width];
   float high[3][tree_width];
   uint32_t child[tree_width];
 };
 
-// corner[corner][axis][triangle]; normal has length 1, or is zero in unused lanes, which nothing
-// can hit.
+// corner[corner][axis][triangle]; normal has length 1. Unused lanes have the
+// patch -1, a normal of zero, which nothing can hit, and their corners nowhere.
 struct alignas(64) TreeLeaf {
   float corner[3][3][tree_width];
   float normal[3][tree_width];
@@ -38,9 +42,8 @@ struct alignas(64) TreeLeaf {
 };
 
 struct Tree {
-  std::vector<TreeNode> nodes;  // the root first; at least one
+  std::vector<TreeNode> nodes; // the root first; at least one
   std::vector<TreeLeaf> leaves;
-  std::vector<uint8_t> counts;  // triangles of each leaf
 };
 
-}  // namespace hrad
+} // namespace hrad
