@@ -18,7 +18,7 @@ struct Options {
   std::string reference_dir = ".";
   double reference_seconds = 0;
   bool reference_only = false;
-  int64_t points = 10000, sides = 3000;
+  int64_t points = 10000, sides = 20000;
   uint64_t seed = 1;
   int64_t runs = 0;  // 0: 1, or 5 pairs
 };
@@ -33,7 +33,7 @@ constexpr char kUsage[] =
     "  --reference-seconds S      first improves each scene's reference by S s of user CPU\n"
     "  --reference-only           no solves after that\n"
     "  --points N                 random points for the error at points (default 10000)\n"
-    "  --sides N                  patch sides for the error of means, all or N (default 3000)\n"
+    "  --sides N                  patch sides for the error of means, all or N (default 20000)\n"
     "  --seed N                   of points and reference (default 1)\n"
     "  --compare SETTINGS SETTINGS  ratios of user CPU, solves interleaved\n";
 

@@ -95,6 +95,19 @@ class PathTracer {
     }
   }
 
+  // No ray from the point meets a lit side: it lies inside a contact. Deep gaps are no contacts,
+  // though paths may bring no light from them.
+  bool sealed(Vector at, Vector n) const {
+    constexpr int rays = 256;
+    Random random(1);
+    for (int i = 0; i < rays; ++i) {
+      const double u[2] = {random.uniform(), random.uniform()};
+      const Hit hit = tree_.nearest(at + n * tree_.offset(), cosine_direction(n, u));
+      if (hit.surface >= 0 && !hit.black) return false;
+    }
+    return true;
+  }
+
  private:
   struct Emitter {
     int64_t surface;

@@ -35,8 +35,7 @@ struct Target {
     }
     return result;
   }
-  // No path brought light: in closed scenes a point inside a contact.
-  bool sealed() const { return physics::sum(sum) == 0; }
+  bool is_dark() const { return physics::sum(sum) == 0; }  // no path brought light
 };
 
 struct TargetSet {

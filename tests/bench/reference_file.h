@@ -28,13 +28,16 @@ struct ReferencePlace {
       std::memcpy(&bits, &value, sizeof bits);
       key = Random::mixed(key ^ bits) + 1;
     };
+    int64_t dark_sides = 0;
     for (const Surface& s : surfaces) {
+      dark_sides += s.emits() ? 0 : s.sides();
       for (const Vector& p : {s.a, s.b, s.c}) add(p.x), add(p.y), add(p.z);
       for (double v : s.reflectance.value) add(v);
       for (double v : s.emission.value) add(v);
       add(s.area), add(s.two_sided), add(s.blocker);
     }
-    add(static_cast<double>(points)), add(static_cast<double>(sides));
+    add(static_cast<double>(points));
+    add(static_cast<double>(sides < dark_sides ? sides : 0));  // 0: all
     return key;
   }
   std::string path(uint64_t key) const {

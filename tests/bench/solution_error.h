@@ -43,7 +43,8 @@ inline std::vector<Spectrum> radiosity_of(const physics::ApiSolver& solver, cons
 }
 
 inline SolutionError error_of(const std::vector<Spectrum>& solution, const TargetSet& set,
-                              const std::vector<Surface>& surfaces) {
+                              const PathTracer& tracer) {
+  const std::vector<Surface>& surfaces = tracer.surfaces();
   struct Terms {  // of one target, weighted: error, energy and noise squared, and their spread
     double square = 0, energy = 0, noise = 0, spread = 0;
     double difference = 0, total = 0, difference_spread = 0;
@@ -57,9 +58,11 @@ inline SolutionError error_of(const std::vector<Spectrum>& solution, const Targe
     area += t.weight;
     if (t.is_point()) {
       const bool lit = physics::sum(solution[i]) > 0;
-      const bool reflects = physics::sum(surfaces[t.surface].reflectance) > 0;
-      e.disagreeing += reflects && t.sealed() == lit;
-      if (t.sealed()) {
+      const Surface& s = surfaces[t.surface];
+      const bool sealed_here =
+          t.is_dark() && tracer.sealed(s.at(t.u, t.v), t.side == 0 ? s.normal : s.normal * -1);
+      e.disagreeing += physics::sum(s.reflectance) > 0 && sealed_here == lit;
+      if (sealed_here) {
         sealed += t.weight;
         continue;
       }

@@ -106,12 +106,12 @@ inline Measurement solve_apart(const std::string& scene, const Settings& setting
     result.stats = solver->stats();
     result.mismatch = worst_mismatch(*solver);
     if (place == nullptr) return;
-    const std::vector<Surface> surfaces = solver->surfaces();
-    const uint64_t key = place->key(surfaces);
+    const PathTracer tracer(solver->surfaces());
+    const uint64_t key = place->key(tracer.surfaces());
     Reference reference;
     if (!read_reference(place->path(key), key, reference) || !reference.usable()) return;
-    result.sides = error_of(radiosity_of(*solver, reference.sides), reference.sides, surfaces);
-    result.points = error_of(radiosity_of(*solver, reference.points), reference.points, surfaces);
+    result.sides = error_of(radiosity_of(*solver, reference.sides), reference.sides, tracer);
+    result.points = error_of(radiosity_of(*solver, reference.points), reference.points, tracer);
     result.compared = true;
   });
 }
