@@ -1,0 +1,53 @@
+// The same bits everywhere: one result for every number of threads and every instruction set that
+// this processor has, and another where a result parameter says so.
+#include <vector>
+
+#include "solver/same_bits.h"
+
+namespace {
+
+using namespace hrad_test;
+
+// Every number of threads and every instruction set, in as few solves as that takes.
+const std::vector<Surroundings> all_surroundings = {
+    {1, "auto"}, {2, "sse2"}, {3, "avx2"}, {4, "avx512"}, {7, "auto"}};
+
+void cornell() { check_same_bits({"cornell", "error", 0.2}, all_surroundings); }
+void cornell_by_energy() { check_same_bits({"cornell", "energy", 0.5}, all_surroundings); }
+void furnished_room() {
+  check_same_bits({"furnished-room", "error", 0.3}, {{4, "auto"}, {1, "sse2"}, {7, "avx2"}});
+}
+void furnished_room_by_energy() {
+  check_same_bits({"furnished-room", "energy", 0.5}, {{1, "auto"}, {7, "sse2"}});
+}
+void furnace_boxes() { check_same_bits({"furnace-boxes", "error", 0.2}, all_surroundings); }
+void furnace_boxes_by_energy() {
+  check_same_bits({"furnace-boxes", "energy", 0.5}, {{3, "auto"}, {1, "avx2"}});
+}
+
+void twice_is_the_same() {
+  check_same_bits({"cornell", "error", 0.3}, {{2, "auto"}, {2, "auto"}, {2, "auto"}});
+}
+
+// The hash sees what it is to see.
+void result_parameters_change_the_hash() {
+  Results coarse, finer, energy;
+  CHECK(solve_in({"cornell", "error", 0.3}, {2, "auto"}, coarse));
+  CHECK(solve_in({"cornell", "error", 0.25}, {2, "auto"}, finer));
+  CHECK(solve_in({"cornell", "energy", 0.5}, {2, "auto"}, energy));
+  CHECK(coarse.hash != finer.hash);
+  CHECK(coarse.hash != energy.hash);
+  CHECK(coarse.numbers != finer.numbers);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      HRAD_TEST(cornell),           HRAD_TEST(cornell_by_energy),
+      HRAD_TEST(furnished_room),    HRAD_TEST(furnished_room_by_energy),
+      HRAD_TEST(furnace_boxes),     HRAD_TEST(furnace_boxes_by_energy),
+      HRAD_TEST(twice_is_the_same), HRAD_TEST(result_parameters_change_the_hash),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
