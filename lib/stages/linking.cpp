@@ -91,6 +91,9 @@ class PairLinker {
       estimate(p, q, sampler, bundle);
     }
     flush(p, sampler, bundle);
+    // Bundles are late: back to ascending order.
+    std::sort(found_[p].begin(), found_[p].end(),
+              [](const Reciprocal& a, const Reciprocal& b) { return a.other < b.other; });
     found_[p].shrink_to_fit();
   }
 

@@ -92,7 +92,10 @@ LinkLoad SubtreeRefiner::load_of(int32_t at, const Link& link, double source_are
   load.patch_area = forest.surfaces[place.surface].area;
   load.source_area = source_area;
   load.may_split = place.level < max_level && load.receiver_area > tools_.oracle.min_area;
-  load.may_descend = source.first_child >= 0;
+  // Children that an earlier pass of this round has made don't count yet: the round sees the state
+  // that it began with.
+  load.may_descend = source.first_child >= 0 &&
+                     static_cast<size_t>(source.first_child) < brightness_.of_node.size();
   const float* radiosity = &state_.radiosity[static_cast<size_t>(link.source) * state_.bands];
   if (tools_.oracle.kind == OracleKind::energy)
     for (int band = 0; band < state_.bands; ++band)
