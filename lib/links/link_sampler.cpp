@@ -3,24 +3,13 @@
 
 #include <algorithm>
 
-#include "links/form_factor.h"
+#include "base/angle.h"
+#include "links/mean_factor.h"
 
 namespace hrad {
 namespace {
 
 constexpr int lanes_per_packet = 16;
-
-// Lambert's form factors of a source from the centroids of the receiver's quarters. The one in the
-// middle lies at the receiver's own centroid: the one-point rule, against which the mean of the four
-// is held.
-void quarter_factors(const Triangle& t, Vec3 normal, const Triangle& source, double factor[4]) {
-  const Vec3 center = t.centroid();
-  // The centroid of the quarter at a corner lies halfway between the corner and the centroid.
-  factor[0] = point_to_triangle((t.a + center) * 0.5, normal, source);
-  factor[1] = point_to_triangle((t.b + center) * 0.5, normal, source);
-  factor[2] = point_to_triangle((t.c + center) * 0.5, normal, source);
-  factor[3] = point_to_triangle(center, normal, source);
-}
 
 double mean_of(const double v[4]) { return ((v[0] + v[1]) + (v[2] + v[3])) * 0.25; }
 
@@ -58,55 +47,51 @@ void LinkSampler::begin(const Element& receiver, const Element& source, uint64_t
   draw(receiver, source, key, drawn);
   estimate = LinkEstimate{};
   estimate.source_area = source.area;
+  estimate.exposed = receiver.exposed;
   const float* kernel = drawn.samples.kernel;
-  double quarter[4] = {0, 0, 0, 0};
-  double sum = 0;
-  int count = 0;
-  for (int q = 0; q < 4; ++q) {
-    double quarter_sum = 0;
-    int quarter_count = 0;
-    for (int k = 4 * q; k < 4 * q + 4; ++k) {
-      if (!(drawn.receiver_exposed >> k & 1)) continue;
-      quarter_sum += kernel[k];
-      ++quarter_count;
-    }
-    quarter[q] = quarter_count ? std::min(1.0, quarter_sum / quarter_count * source.area) : 0;
-    sum += quarter_sum;
-    count += quarter_count;
-  }
-  const double sampled = count ? std::min(1.0, sum / count * source.area) : 0;
+  double quarter[4];
+  for (int q = 0; q < 4; ++q)
+    quarter[q] = std::min(1.0, 0.25 * source.area *
+                                   (static_cast<double>(kernel[4 * q]) + kernel[4 * q + 1] +
+                                    kernel[4 * q + 2] + kernel[4 * q + 3]));
   const double distance = length(source.centroid - receiver.centroid);
   estimate.near = receiver.radius + source.radius > near_ratio_ * distance;
   if (!estimate.near) {
-    estimate.factor = sampled;
+    estimate.factor = mean_of(quarter);
     estimate.variation = half_range(quarter);
     return;
   }
-  double lambert[4];
-  if (receiver.area <= source.area || receiver.exposed < 1) {
-    quarter_factors(receiver.corners, receiver.normal, source.corners, lambert);
-    estimate.factor = mean_of(lambert);
-    estimate.variation = half_range(lambert);
-    estimate.mean_error = std::fabs(lambert[3] - estimate.factor) / 3;
+  if (receiver.area <= source.area) {
+    const MeanFactor mean = mean_factor(receiver.corners, receiver.normal, source.corners);
+    estimate.factor = mean.mean;
+    estimate.mean_error = mean.error;
+    estimate.variation = mean.half_range;
   } else {
     // Reciprocity: integrate over the smaller of the two, where few points do.
-    quarter_factors(source.corners, source.normal, receiver.corners, lambert);
+    const MeanFactor mean = mean_factor(source.corners, source.normal, receiver.corners);
     const double ratio = source.area / receiver.area;
-    estimate.factor = mean_of(lambert) * ratio;
-    estimate.mean_error = std::fabs(lambert[3] * ratio - estimate.factor) / 3;
-    estimate.variation = half_range(quarter);
+    // A small source near a large receiver lights a spot that the quarters may miss: about its own
+    // size, and wider the higher it stands.
+    const double height = dot(source.centroid - receiver.centroid, receiver.normal);
+    const double spot = mean.mean * source.area / (source.area + pi * height * height);
+    estimate.factor = mean.mean * ratio;
+    estimate.mean_error = mean.error * ratio;
+    estimate.variation = std::max(half_range(quarter), 0.5 * (spot - estimate.factor));
   }
 }
 
 void LinkSampler::add(const DrawnPairs& drawn, uint32_t lanes, uint32_t blocked,
                       LinkEstimate& estimate) {
   rays_ += __builtin_popcount(lanes);
-  const uint32_t counted = lanes & drawn.receiver_exposed;
-  const uint32_t seen = counted & drawn.source_exposed & ~blocked;
+  const uint32_t seen = lanes & drawn.receiver_exposed & drawn.source_exposed & ~blocked;
   for (int k = 0; k < lanes_per_packet; ++k) {
-    if (!(counted >> k & 1)) continue;
-    estimate.kernel_sum += drawn.samples.kernel[k];
-    if (seen >> k & 1) estimate.visible_sum += drawn.samples.kernel[k];
+    if (!(lanes >> k & 1)) continue;
+    // Near each other a pair of points may all but touch: it stands for a sixteenth of the source,
+    // whose form factor is at most 1.
+    double kernel = drawn.samples.kernel[k];
+    if (estimate.near) kernel = std::min(kernel, lanes_per_packet / estimate.source_area);
+    estimate.kernel_sum += kernel;
+    if (seen >> k & 1) estimate.visible_sum += kernel;
     ++estimate.pairs;
   }
 }
@@ -133,13 +118,19 @@ float LinkSampler::exposed_share(const Node& place) const {
   if (!exposure_.can_be_sealed(surface.patch, surface.side)) return 1;
   const Triangle corners = forest_.triangle(place);
   const uint64_t key = key_of(forest_, place);
-  int exposed = 0;
-  for (int k = 0; k < lanes_per_packet; ++k) {
-    double uv[2];
-    spread_point(key, k, uv);
-    exposed += !exposure_.sealed(surface.patch, surface.side, corners.at(uv[0], uv[1]));
+  // One set tells most elements that are sealed not at all or all over; the borders take more.
+  constexpr int most_sets = 16;
+  int exposed = 0, sets = 0;
+  while (sets < most_sets) {
+    const uint64_t set = static_cast<uint64_t>(sets++);
+    for (int k = 0; k < lanes_per_packet; ++k) {
+      double uv[2];
+      spread_point(mix(key, set), k, uv);
+      exposed += !exposure_.sealed(surface.patch, surface.side, corners.at(uv[0], uv[1]));
+    }
+    if (place.level > 0 && (exposed == 0 || exposed == sets * lanes_per_packet)) break;
   }
-  return static_cast<float>(exposed) / lanes_per_packet;
+  return static_cast<float>(exposed) / static_cast<float>(sets * lanes_per_packet);
 }
 
 }  // namespace hrad

@@ -3,6 +3,7 @@
 // Floor 6 (links).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "links/element.h"
@@ -14,16 +15,27 @@ namespace hrad {
 
 // What is known of a link; grows as packets are traced.
 struct LinkEstimate {
-  double factor = 0;      // form factor without occlusion, mean over the receiver's exposed part
+  double factor = 0;      // form factor without occlusion, mean over the whole receiver
   double variation = 0;   // half the range of it among the receiver's quarters
   double mean_error = 0;  // error of its mean over the receiver, estimated
   bool near = false;      // factor is Lambert's
   double source_area = 0;
   double kernel_sum = 0, visible_sum = 0;  // over the traced pairs
-  int pairs = 0;                           // traced pairs on the exposed part of the receiver
+  int pairs = 0;                           // traced pairs; those on sealed points count as blocked
   double visible() const { return kernel_sum > 0 ? visible_sum / kernel_sum : 0; }
-  // Form factor times visible fraction.
-  double weight() const { return factor * visible(); }
+  double exposed = 1;  // share of the receiver: all light arrives there
+  // Form factor times visible fraction, mean over the receiver's exposed part, at most 1.
+  double weight() const { return std::min(1.0, seen() / exposed); }
+  // The same over the whole receiver. Not their product, which a handful of pairs makes too large
+  // or too small on the average where kernel and visibility go together, but without bias: the form
+  // factor less the blocked part, or the visible part alone, whichever was sampled to be smaller.
+  double seen() const {
+    if (pairs == 0) return 0;
+    const double visible_part = source_area * visible_sum / pairs;
+    const double blocked_part = source_area * (kernel_sum - visible_sum) / pairs;
+    if (blocked_part <= visible_part) return blocked_part < factor ? factor - blocked_part : 0;
+    return visible_part < factor ? visible_part : factor;
+  }
 };
 
 // A packet under way: the drawn pairs and which of them end on exposed points.
@@ -56,8 +68,13 @@ class LinkSampler {
   void trace_more(const Element& receiver, const Element& source, uint64_t key, int packets,
                   LinkEstimate& estimate);
 
-  // Share of the element that is exposed, from its sixteen spread points.
+  // Share of the element that is exposed, from points spread over it: more on a whole patch.
   float exposed_share(const Node& place) const;
+
+  // A few rays of a first packet serve as a probe of a clear view only where all points count.
+  static bool may_probe(const Element& receiver, const Element& source) {
+    return receiver.exposed >= 1 && source.exposed >= 1;
+  }
 
   // Rays traced so far (those that add() was given included).
   int64_t rays() const { return rays_; }

@@ -40,20 +40,23 @@ Decision judge_energy(const OracleSettings& s, const LinkLoad& load) {
 Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEstimate& e,
                      double size_ratio) {
   const double carried = load.weight * load.brightness;
-  const double hidden = std::max(0.0, e.factor - load.weight) * load.brightness;
+  // Partial visibility, bright and dark alike: were links that look almost clear kept more readily
+  // than those that look almost dark, the chance of sampling would brighten the scene.
+  const double visible = e.factor > 0 ? std::min(1.0, load.weight / e.factor) : 0;
+  const double partial = e.factor * load.brightness * visible * (1 - visible);
   const double relative = e.factor > 0 ? e.variation / e.factor : 0;
   const double quadrature = e.factor > 0 ? e.mean_error / e.factor : 0;
   // Variation over the receiver: of the kernel, and of what is seen of the source.
-  const double at_points = (carried * relative * relative + hidden) * point_share(s, load);
+  const double at_points = (carried * relative * relative + partial) * point_share(s, load);
   const double in_mean =
-      (carried * quadrature * quadrature + hidden / (16 * s.most_packets)) * mean_share(load);
+      (carried * quadrature * quadrature + partial / 64) * mean_share(load);
   if (load.may_split && (at_points > s.point_variance || in_mean > s.mean_variance))
     return Decision::split_receiver;
   if (load.may_descend && load.brightness > 0) {
     // An uneven source matters as far as the kernel or the view of it is uneven across it.
     const double uneven = load.source_spread / load.brightness;
     const double skew = std::min(1.0, size_ratio * size_ratio) +
-                        (carried > 0 ? std::min(1.0, hidden / carried) : 1.0);
+                        (carried > 0 ? std::min(1.0, partial / carried) : 1.0);
     if (carried * uneven * uneven * std::min(1.0, skew) * mean_share(load) > s.mean_variance)
       return Decision::descend_source;
   }
@@ -61,10 +64,12 @@ Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEs
 }
 
 int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEstimate& e) {
+  // No pair that counts was met: everything behind a horizon or sealed.
+  if (!(e.kernel_sum > 0)) return s.most_packets;
   const double visible = e.visible();
-  // Nothing seen by n rays means below about 1/n, not darkness.
-  const double variance = visible > 0 ? visible * (1 - visible) : 1.0 / 16;
-  if (variance <= 0) return 1;
+  // Nothing seen, or nothing blocked, by n rays means a share below about 1/n, not none. Links that
+  // look clear or dark are refined no further, so such a share would be lost for good.
+  const double variance = std::max(visible * (1 - visible), 1.0 / 18);
   const double error = e.factor * load.brightness * variance * mean_share(load);
   const double wanted = error / (16 * s.mean_variance);
   return std::max(1, std::min(s.most_packets, static_cast<int>(wanted) + 1));

@@ -23,7 +23,7 @@ struct OracleSettings {
   double min_area = 0;      // smaller receivers are not split
   double near_ratio = 0.4;  // LinkSampler's
   uint64_t seed = 1;
-  int most_packets = 4;     // of visibility for one link
+  int most_packets = 16;    // of visibility for one link
 };
 
 enum class Decision { keep, split_receiver, descend_source };

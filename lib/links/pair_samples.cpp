@@ -93,7 +93,6 @@ void draw_pairs(const Element& receiver, const Element& source, uint64_t key, Ve
                 double offset, PairSamples& samples) {
   const Pattern& p = pattern_of(mix(key));
   const FloatTriangle r = lifted(receiver, center, offset), s = lifted(source, center, offset);
-  const float extra = static_cast<float>(source.area / 16);
   const float pi_float = static_cast<float>(pi);
   SegmentPacket& packet = samples.packet;
   packet.active = all_pairs;
@@ -117,7 +116,7 @@ void draw_pairs(const Element& receiver, const Element& source, uint64_t key, Ve
     at_receiver = at_receiver > 0 ? at_receiver : 0;
     at_source = at_source > 0 ? at_source : 0;
     const float d2 = dx * dx + dy * dy + dz * dz;
-    const float below = d2 * (pi_float * d2 + extra);
+    const float below = pi_float * d2 * d2;
     samples.kernel[k] = below > 0 ? at_receiver * at_source / below : 0;
   }
 }

@@ -16,7 +16,7 @@ constexpr uint32_t quick_pairs = 0x1111;
 
 struct PairSamples {
   SegmentPacket packet;    // pairs 4q .. 4q+3 start in quarter q of the receiver
-  float kernel[16];        // cos * cos' / (pi d^2 + A_s/16), in 1/unit^2; 0 behind a horizon
+  float kernel[16];        // cos * cos' / (pi d^2), in 1/unit^2; 0 behind a horizon
 };
 
 // Draws the pairs from the key's hash: stratified on both sides, so that every quarter of the

@@ -55,7 +55,7 @@ OracleSettings oracle_of_round(const Params& params, const State& state, int rou
   // The kernel between sampled points errs with the square of size over distance.
   s.near_ratio = std::min(0.5, 3 * std::sqrt(accuracy));
   s.seed = static_cast<uint64_t>(params.seed);
-  s.most_packets = 4;
+  s.most_packets = 16;
   return s;
 }
 

@@ -136,8 +136,8 @@ class PairLinker {
     sampler.begin(receiver, source, key, drawn, e);
     if (!(e.factor > 0)) return;
     const LinkLoad load = load_of(p, q, e.factor);
-    if (e.factor * load.brightness > tools_.oracle.mean_variance || receiver.exposed < 1 ||
-        source.exposed < 1) {
+    if (e.factor * load.brightness > tools_.oracle.mean_variance ||
+        !LinkSampler::may_probe(receiver, source)) {
       sampler.trace(drawn, e);
       const int packets = packets_wanted(tools_.oracle, load, e);
       if (packets > 1) sampler.trace_more(receiver, source, key, packets, e);
@@ -188,7 +188,9 @@ class PairLinker {
   void keep(NodeId p, NodeId q, const LinkEstimate& e) {
     const double weight = e.weight();
     if (!(weight > 0)) return;
-    const double back = (roots_[p].area * roots_[p].exposed) / (roots_[q].area * roots_[q].exposed);
+    // Reciprocity holds between the exposed parts.
+    const double back =
+        (roots_[p].area * roots_[p].exposed) / (roots_[q].area * roots_[q].exposed);
     found_[p].push_back({q, static_cast<float>(std::min(1.0, weight)),
                          static_cast<float>(std::min(1.0, weight * back))});
   }

@@ -164,7 +164,7 @@ void SubtreeRefiner::split(int32_t at, const Element& source, Link link, double 
   if (!any) return;
   // A clear view is probed by four rays from each child, in one packet.
   uint32_t probed = 0, blocked = 0;
-  if (visible >= clear_view) {
+  if (visible >= clear_view && LinkSampler::may_probe(element(at), source)) {
     SegmentPacket packet;
     packet.active = all_pairs;
     for (int to = 0; to < 16; ++to) {
@@ -190,9 +190,8 @@ void SubtreeRefiner::split(int32_t at, const Element& source, Link link, double 
     LinkEstimate& e = estimate[child];
     if (!(e.factor > 0)) continue;
     const uint32_t mine = blocked >> (4 * child) & 0xf;
-    if (probed && mine == 0) {
-      sampler_.add(drawn[child], quick_pairs, 0, e);
-    } else {
+    if (probed && mine == 0) sampler_.add(drawn[child], quick_pairs, 0, e);
+    if (!(e.kernel_sum > 0)) {
       e = traced(first + child, source, source_key, link.source, drawn[child], e);
     }
     const double weight = std::min(1.0, e.weight());
@@ -218,17 +217,13 @@ void SubtreeRefiner::descend(int32_t at, Link link, double visible) {
     const Element& receiver = element(at);
     sampler_.begin(receiver, source, sampler_.link_key(work_[at].key, source_key), drawn, e);
     if (!(e.factor > 0)) continue;
-    if (visible >= clear_view) {
+    if (visible >= clear_view && LinkSampler::may_probe(receiver, source)) {
       SegmentPacket probe = drawn.samples.packet;
       probe.active = quick_pairs;
       const uint32_t blocked = tools_.engine.blocked(probe);
-      if ((blocked & quick_pairs) == 0)
-        sampler_.add(drawn, quick_pairs, 0, e);
-      else
-        e = traced(at, source, source_key, id, drawn, e);
-    } else {
-      e = traced(at, source, source_key, id, drawn, e);
+      if ((blocked & quick_pairs) == 0) sampler_.add(drawn, quick_pairs, 0, e);
     }
+    if (!(e.kernel_sum > 0)) e = traced(at, source, source_key, id, drawn, e);
     const double weight = std::min(1.0, e.weight());
     if (weight > 0) weigh_known(at, {id, static_cast<float>(weight)}, source, e);
   }
