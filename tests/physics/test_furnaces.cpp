@@ -60,7 +60,7 @@ struct Tolerance {
   double points_rms;
 };
 // Rooms without a contact or a narrow gap, patch by patch.
-constexpr Tolerance kPlain = {0.01, 0.003, 0.005, 0.01};
+constexpr Tolerance kPlain = {0.01, 0.003, 0.005, 0.03};
 constexpr Tolerance kSmall = {0.01, 0.005, 0.03, 0.03};
 constexpr Tolerance kLarge = {0.1, 0.04, 0.6, 0.08};
 
