@@ -8,14 +8,17 @@ namespace {
 
 using namespace hrad_test;
 
-// Every number of threads and every instruction set, in as few solves as that takes.
+// Every number of threads and every instruction set, in as few solves as that takes; the slower
+// cases make do with some of them.
 const std::vector<Surroundings> all_surroundings = {
     {1, "auto"}, {2, "sse2"}, {3, "avx2"}, {4, "avx512"}, {7, "auto"}};
 
 void cornell() { check_same_bits({"cornell", "error", 0.2}, all_surroundings); }
-void cornell_by_energy() { check_same_bits({"cornell", "energy", 0.5}, all_surroundings); }
+void cornell_by_energy() {
+  check_same_bits({"cornell", "energy", 0.5}, {{2, "auto"}, {1, "sse2"}, {3, "avx512"}});
+}
 void furnished_room() {
-  check_same_bits({"furnished-room", "error", 0.3}, {{4, "auto"}, {1, "sse2"}, {7, "avx2"}});
+  check_same_bits({"furnished-room", "error", 0.3}, {{4, "auto"}, {1, "sse2"}});
 }
 void furnished_room_by_energy() {
   check_same_bits({"furnished-room", "energy", 0.5}, {{1, "auto"}, {7, "sse2"}});

@@ -194,7 +194,7 @@ void what_is_good_enough_stays() {
 void a_round_keeps_what_was_there() {
   for (OracleKind kind : kinds) {
     Refined before(builtin_scene("cornell"), kind, 1), after(builtin_scene("cornell"), kind, 1);
-    after.refine(settings(kind, 0.1));
+    after.refine(settings(kind, 0.3));
     const Forest &a = before.state.forest, &b = after.state.forest;
     CHECK(b.nodes.size() > a.nodes.size());
     // The old ones keep their numbers; the new come in the order of their surfaces.
@@ -220,7 +220,7 @@ void a_round_keeps_what_was_there() {
 void threads_change_no_bit() {
   for (OracleKind kind : kinds)
     for (const char* name : {"cornell", "furnace-boxes"}) {
-      const double scale = name[0] == 'f' ? 30 : 0.5;
+      const double scale = name[0] == 'f' ? 30 : 2;
       Refined first(builtin_scene(name), kind, 2, 1, scale);
       CHECK(first.state.rays > 0);
       for (int threads : {2, 3, 7}) {
@@ -234,7 +234,7 @@ void a_stop_leaves_the_state_as_it_was() {
   for (OracleKind kind : kinds) {
     Refined bench(builtin_scene("cornell"), kind, 1), untouched(builtin_scene("cornell"), kind, 1);
     const Brightness brightness = measure_brightness(bench.state, bench.team);
-    StageTools tools = bench.tools(settings(kind, 0.1));
+    StageTools tools = bench.tools(settings(kind, 0.3));
     tools.progress = [](double) { return false; };
     CHECK(!refine_links(bench.state, tools, brightness));
     CHECK(same(bench.state, untouched.state));
@@ -246,7 +246,7 @@ void a_stop_leaves_the_state_as_it_was() {
       return true;
     };
     CHECK(refine_links(bench.state, tools, brightness));
-    untouched.refine(settings(kind, 0.1));
+    untouched.refine(settings(kind, 0.3));
     CHECK(same(bench.state, untouched.state));
   }
 }
