@@ -13,6 +13,13 @@ namespace {
 // With sixteen rays a visible fraction that is not zero is at least a sixteenth.
 constexpr double least_visible = 1.0 / 16;
 
+// Packets of rays before a link that matters is taken for clear or dark.
+constexpr int packets_before_verdict = 4;
+
+// Partial visibility over a receiver weighs more at points than its own variance: all light that an
+// edge cuts off is cut off along the same line.
+constexpr double edge_weight = 4;
+
 // An error over a whole element counts less for its patch the smaller the element is, and for the
 // root mean square over points likewise.
 double mean_share(const LinkLoad& load) { return load.receiver_area / load.patch_area; }
@@ -47,7 +54,7 @@ Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEs
   const double relative = e.factor > 0 ? e.variation / e.factor : 0;
   const double quadrature = e.factor > 0 ? e.mean_error / e.factor : 0;
   // Variation over the receiver: of the kernel, and of what is seen of the source.
-  const double at_points = (carried * relative * relative + partial) * point_share(s, load);
+  const double at_points = (carried * relative * relative + edge_weight * partial) * point_share(s, load);
   const double in_mean =
       (carried * quadrature * quadrature + partial / 64) * mean_share(load);
   if (load.may_split && (at_points > s.point_variance || in_mean > s.mean_variance))
@@ -67,12 +74,17 @@ int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEsti
   // No pair that counts was met: everything behind a horizon or sealed.
   if (!(e.kernel_sum > 0)) return s.most_packets;
   const double visible = e.visible();
-  // Nothing seen, or nothing blocked, by n rays means a share below about 1/n, not none. Links that
-  // look clear or dark are refined no further, so such a share would be lost for good.
   const double variance = std::max(visible * (1 - visible), 1.0 / 18);
   const double error = e.factor * load.brightness * variance * mean_share(load);
   const double wanted = error / (16 * s.mean_variance);
-  return std::max(1, std::min(s.most_packets, static_cast<int>(wanted) + 1));
+  // Nothing seen, or nothing blocked, by n rays means a share below about 1/n, not none. Links that
+  // look dark or clear are refined no further, others are: where that is to be decided by chance, in
+  // this round or in a later one, few rays would lose light for good. The loss falls with 1/n^2.
+  const bool even = visible <= 0 || visible >= 1;
+  const bool in_question =
+      e.factor * load.brightness * point_share(s, load) > s.last_point_variance;
+  const int least = even && in_question ? packets_before_verdict : 1;
+  return std::max(least, std::min(s.most_packets, static_cast<int>(wanted) + 1));
 }
 
 }  // namespace hrad

@@ -19,6 +19,7 @@ struct OracleSettings {
   // Error: allowed variance of a patch mean, and of a point, per unit of irradiance carried, both
   // relative to the scene's mean irradiance.
   double mean_variance = 0, point_variance = 0;
+  double last_point_variance = 0;  // point_variance of the last round
   double point_area = 1;    // area at which point_variance holds; smaller elements may err more
   double min_area = 0;      // smaller receivers are not split
   double near_ratio = 0.4;  // LinkSampler's

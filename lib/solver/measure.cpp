@@ -49,54 +49,48 @@ bool dark(const Scene& scene, int32_t patch) {
   return true;
 }
 
-// One drawn patch: the squares of what was solved and of the residual, all bands together.
+// One drawn patch, all bands together.
 struct Residual {
-  double square = 0, noise = 0;  // residual squared, and the variance of the measurement in it
-  double solved = 0;             // radiosity squared
+  double square = 0;  // of the difference between solved and measured; noise makes it larger or smaller
+  double solved = 0;  // radiosity squared
   double signed_sum = 0, solved_sum = 0;
   int64_t rays = 0;
 };
 
+// The patch is measured twice, independently: the product of the two differences has the square of
+// the true one as its mean, without a bias by noise.
 Residual residual_of(const State& state, const StageTools& tools, const RayGather& rays,
                      NodeId root, uint64_t key, int rays_of_a_point, bool reflected) {
   const Scene& scene = *state.forest.scene;
   const Surface& surface = state.forest.surfaces[root];
   const int bands = state.bands;
-  double sum[most_bands] = {}, squares[most_bands] = {};
+  const bool can_be_sealed = tools.exposure.can_be_sealed(surface.patch, surface.side);
+  double sum[2][most_bands] = {}, unused[most_bands] = {};
   Residual r;
   for (int k = 0; k < points_of_a_patch; ++k) {
     const uint64_t h = mix(key, static_cast<uint64_t>(k));
-    // Spread over the patch: the sixteenths in turn.
-    const int part = k % 16;
+    // Spread over the patch: each half visits the sixteenths in turn.
+    const int part = (k / 2) % 16;
     Node place;
-    place = child_place(child_place(place, part / 4), part % 4);
     place.surface = root;
+    place = child_place(child_place(place, part / 4), part % 4);
     const Vec3 on = point_of(state.forest.triangle(place), h);
-    double value[most_bands] = {}, unused[most_bands] = {};
-    if (!tools.exposure.can_be_sealed(surface.patch, surface.side) ||
-        !tools.exposure.sealed(surface.patch, surface.side, on))
-      r.rays += rays.sample(on + surface.normal * tools.engine.offset(), surface.normal, h,
-                            rays_of_a_point, value, unused);
-    for (int b = 0; b < bands; ++b) {
-      const double mean = value[b] / rays_of_a_point;
-      sum[b] += mean;
-      squares[b] += mean * mean;
-    }
+    if (can_be_sealed && tools.exposure.sealed(surface.patch, surface.side, on)) continue;
+    r.rays += rays.sample(on + surface.normal * tools.engine.offset(), surface.normal, h,
+                          rays_of_a_point, sum[k % 2], unused);
   }
   const double exposed = state.forest.nodes[root].exposed;
   for (int b = 0; b < bands; ++b) {
     const size_t at = static_cast<size_t>(surface.patch) * bands + b;
     const double factor = reflected ? scene.reflectance[at] : 1.0;
-    const double mean = sum[b] / points_of_a_patch;
-    const double variance =
-        std::max(0.0, squares[b] / points_of_a_patch - mean * mean) / (points_of_a_patch - 1);
-    const double solved = exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
-    const double difference = factor * (solved - mean);
-    r.square += difference * difference;
-    r.noise += factor * factor * variance;
-    r.solved += factor * factor * solved * solved;
-    r.signed_sum += difference;
-    r.solved_sum += factor * solved;
+    const double solved = factor * exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
+    double difference[2];
+    for (int half = 0; half < 2; ++half)
+      difference[half] = solved - factor * sum[half][b] / (rays_of_a_point * (points_of_a_patch / 2));
+    r.square += difference[0] * difference[1];
+    r.solved += solved * solved;
+    r.signed_sum += (difference[0] + difference[1]) / 2;
+    r.solved_sum += solved;
   }
   return r;
 }
@@ -137,9 +131,8 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
   });
   double square = 0, solved = 0, fourth = 0, bias = 0, solved_sum = 0;
   for (const Residual& r : residuals) {
-    const double net = r.square - r.noise;
-    square += net;
-    fourth += net * net;
+    square += r.square;
+    fourth += r.square * r.square;
     solved += r.solved;
     bias += r.signed_sum;
     solved_sum += r.solved_sum;

@@ -49,6 +49,7 @@ OracleSettings oracle_of_round(const Params& params, const State& state, int rou
   const double point = params.tolerance > 0 ? 4 * params.tolerance : point_share * std::sqrt(accuracy);
   s.mean_variance = ease * mean * mean;
   s.point_variance = ease * point * point;
+  s.last_point_variance = point * point;
   s.point_area = area * point_area_share;
   s.min_area = params.min_area > 0 ? params.min_area
                                    : area * smallest_share * accuracy * accuracy;
