@@ -1,6 +1,7 @@
 // Embree 3 or 4 behind the seam: the cross-check of the builtin engine and the measure of its
 // speed. Its scenes are robust: without that, hits differ between instruction sets. Floor 4
 // (visibility).
+#include <algorithm>
 #include <cmath>
 
 #if HRAD_WITH_EMBREE >= 4
@@ -144,7 +145,7 @@ Hit EmbreeEngine::nearest(Vec3 origin, Vec3 direction, double t_min) const {
   const Vec3 unit = direction * (1 / size);
   const Vec3 from_center = origin - center_;
   // Single precision starts close to the scene, however far away the ray does.
-  const double ahead = std::fmax(0, -dot(from_center, unit) - 1.5 * radius_);
+  const double ahead = std::max(0.0, -dot(from_center, unit) - 1.5 * radius_);
   const Vec3 start = from_center + unit * ahead;
   RTCRayHit query;
   query.ray.org_x = static_cast<float>(start.x);
@@ -153,7 +154,7 @@ Hit EmbreeEngine::nearest(Vec3 origin, Vec3 direction, double t_min) const {
   query.ray.dir_x = static_cast<float>(unit.x);
   query.ray.dir_y = static_cast<float>(unit.y);
   query.ray.dir_z = static_cast<float>(unit.z);
-  query.ray.tnear = static_cast<float>(std::fmax(t_min * size - ahead, 0));
+  query.ray.tnear = static_cast<float>(std::max(t_min * size - ahead, 0.0));
   query.ray.tfar = INFINITY;
   query.ray.time = 0;
   query.ray.mask = ~0u;

@@ -8,7 +8,6 @@
 namespace hrad {
 
 namespace {
-#include "visibility/lanes.inl"
 #include "visibility/packet_kernel.inl"
 #include "visibility/ray_kernel.inl"
 constexpr Kernels kernels{"avx2", blocked, nearest};

@@ -9,7 +9,6 @@
 namespace hrad {
 
 namespace {
-#include "visibility/lanes.inl"
 #include "visibility/packet_kernel.inl"
 #include "visibility/ray_kernel.inl"
 constexpr Kernels kernels{"sse2", blocked, nearest};

@@ -2,6 +2,7 @@
 // Only vertical operations that IEEE 754 defines bit by bit, so that every instruction set gives
 // the same results. Included within an unnamed namespace by files that are compiled with their own
 // instruction set; uses no inline functions that other files share. Floor 4 (visibility).
+#pragma once
 
 using Vector4 = float __attribute__((vector_size(16)));
 using Mask4 = int32_t __attribute__((vector_size(16)));

@@ -1,10 +1,11 @@
-#define PLANES
-#define PLANES
 // Sixteen segments of one link against the tree. The segments run from a small region to another,
 // so that one test of a box against their shaft, the convex hull of both regions' boxes, stands for
 // all of them (Haines and Wallace, "Shaft culling for efficient ray-cast radiosity", 1991); only
 // triangles are tested against the sixteen segments themselves. Included within an unnamed
-// namespace after lanes.inl. Floor 4 (visibility).
+// namespace after segment_kernel.inl. Floor 4 (visibility).
+#pragma once
+
+#include "visibility/segment_kernel.inl"
 
 // The segments, as the tests see them.
 struct Bundle {
@@ -152,35 +153,6 @@ inline uint32_t segments_meeting(const TreeNode& node, int child, const Bundle& 
   return less_equal(near, far);
 }
 
-// Eight triangles' numbers that do not depend on the segment.
-struct PreparedLeaf {
-  float edge[3][3][8], moment[3][3][8];  // edge, and edge x (sum of its ends)
-  float plane[8];                        // normal . corner
-};
-
-inline void prepare(const TreeLeaf& leaf, const float* reference, PreparedLeaf& prepared) {
-  Eight corner[3][3];
-  for (int k = 0; k < 3; ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      corner[k][axis] = Eight::load(leaf.corner[k][axis]) - Eight::all(reference[axis]);
-  for (int k = 0; k < 3; ++k) {
-    Eight edge[3], sum[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      edge[axis] = corner[(k + 1) % 3][axis] - corner[k][axis];
-      sum[axis] = corner[(k + 1) % 3][axis] + corner[k][axis];
-      edge[axis].store(prepared.edge[k][axis]);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-      (edge[next] * sum[last] - edge[last] * sum[next]).store(prepared.moment[k][axis]);
-    }
-  }
-  Eight plane = Eight::load(leaf.normal[0]) * corner[0][0];
-  plane = plane + Eight::load(leaf.normal[1]) * corner[0][1];
-  plane = plane + Eight::load(leaf.normal[2]) * corner[0][2];
-  plane.store(prepared.plane);
-}
-
 // Which side of an edge the segments pass on: the product of their Pluecker coordinates. The two
 // triangles at an edge get exactly opposite numbers, and zero counts as inside, so that no segment
 // slips through between them.
@@ -243,6 +215,39 @@ inline uint32_t blocked_by_leaf(const TreeLeaf& leaf, uint32_t todo, const Bundl
   return found;
 }
 
+// A shaft that has looked into this many nodes and found its leaves met by fewer segments than
+// these on average is given up for single segments. Packets of a link seldom get there; the shaft
+// of unrelated segments fills the scene.
+constexpr int patient_nodes = 24, worthwhile_segments = 2;
+
+// Bit i: segment i, of those in `active`, is blocked by something in the subtrees on the stack.
+inline uint32_t blocked_singly(const TreeView& tree, const Bundle& bundle, uint32_t active,
+                               const uint32_t* subtrees, int count) {
+  float place[3][16], origin[3][16], direction[3][16], moment[3][16];
+  for (int axis = 0; axis < 3; ++axis) {
+    bundle.place[axis].store(place[axis]);
+    bundle.origin[axis].store(origin[axis]);
+    bundle.direction[axis].store(direction[axis]);
+    bundle.moment[axis].store(moment[axis]);
+  }
+  uint32_t found = 0;
+  for (; active; active &= active - 1) {
+    const int i = __builtin_ctz(active);
+    Segment segment;
+    for (int axis = 0; axis < 3; ++axis) {
+      segment.place[axis] = place[axis][i];
+      segment.origin[axis] = origin[axis][i];
+      segment.direction[axis] = direction[axis][i];
+      segment.moment[axis] = moment[axis][i];
+    }
+    segment.reference = bundle.reference;
+    uint32_t stack[tree_stack_size];
+    __builtin_memcpy(stack, subtrees, count * sizeof stack[0]);
+    found |= static_cast<uint32_t>(is_blocked(tree, segment, stack, count)) << i;
+  }
+  return found;
+}
+
 template <int forward>
 uint32_t traverse(const TreeView& tree, const Bundle& bundle, const Shaft& shaft, uint32_t wanted) {
   const WideShaft<forward> wide(shaft);
@@ -250,7 +255,12 @@ uint32_t traverse(const TreeView& tree, const Bundle& bundle, const Shaft& shaft
   uint32_t stack[tree_stack_size];
   int size = 0;
   stack[size++] = 0;
-  while (size) {
+  int tests = 0, meetings = 0;  // of leaves' boxes with segments
+  for (int visited = 0; size; ++visited) {
+    if (visited >= patient_nodes && meetings < worthwhile_segments * tests) {
+      active &= ~blocked_singly(tree, bundle, active, stack, size);
+      break;
+    }
     const TreeNode& node = tree.nodes[stack[--size]];
     for (uint32_t mask = wide.meets(&node.low[0][0]); mask; mask &= mask - 1) {
       const int i = __builtin_ctz(mask);
@@ -260,11 +270,12 @@ uint32_t traverse(const TreeView& tree, const Bundle& bundle, const Shaft& shaft
         continue;
       }
       const uint32_t some = active & segments_meeting(node, i, bundle);
+      ++tests;
       if (!some) continue;
-      const TreeLeaf& leaf = tree.leaves[child & ~tree_leaf_bit];
-      const uint32_t todo = candidates(leaf, wide, tree.padding);
+      meetings += __builtin_popcount(some);
+      const TreeLeaf& leaf = tree.leaves[leaf_number(child)];
+      const uint32_t todo = candidates(leaf, wide, tree.padding) & leaf_lanes(child);
       if (!todo) continue;
-
       active &= ~blocked_by_leaf(leaf, todo, bundle, some);
       if (!active) return wanted;
     }
@@ -277,7 +288,6 @@ uint32_t blocked(const TreeView& tree, const SegmentPacket& packet) {
   if (!wanted) return 0;
   Bundle bundle;
   Shaft shaft;
-
   if (wanted == 0xffffu) {
     prepare(packet, bundle, shaft);
   } else {  // what is not looked at may hold anything: put copies of an active segment there

@@ -1,50 +1,17 @@
-// One ray and its nearest triangle: eight boxes or eight triangles at once, near boxes first.
-// Included within an unnamed namespace after lanes.inl. Floor 4 (visibility).
+// One ray and its nearest triangle, near boxes first. Included within an unnamed namespace. Floor 4
+// (visibility).
+#pragma once
 
-struct RayBoxes {
-  uint32_t near_offset[3],
-      far_offset[3];          // of the sides met first and last within TreeNode, in floats
-  float origin[3], slope[3];  // slope: 1 / direction
-};
+#include "visibility/ray_boxes.inl"
 
-inline RayBoxes prepare(const RayQuery& query) {
-  RayBoxes ray;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float d = query.direction[axis];
-    const float size = __builtin_fabsf(d);
-    const float steep = size > 1 / tree_steepest ? 1 / size : tree_steepest;
-    const uint32_t low = axis * tree_width, high = (3 + axis) * tree_width;
-    ray.slope[axis] = d < 0 ? -steep : steep;
-    ray.near_offset[axis] = d < 0 ? high : low;
-    ray.far_offset[axis] = d < 0 ? low : high;
-    ray.origin[axis] = query.origin[axis];
-  }
-  return ray;
-}
-
-// Bit i: the ray meets box i between `first` and `last`; entry: where it enters.
-inline uint32_t meets(const RayBoxes& ray, const TreeNode& node, float first, float last,
-                      float* entry) {
-  Eight near = Eight::all(first), far = Eight::all(last);
-  for (int axis = 0; axis < 3; ++axis) {
-    const float* boxes = &node.low[0][0];
-    const Eight origin = Eight::all(ray.origin[axis]), slope = Eight::all(ray.slope[axis]);
-    near = greatest(near, (Eight::load(boxes + ray.near_offset[axis]) - origin) * slope);
-    far = least(far, (Eight::load(boxes + ray.far_offset[axis]) - origin) * slope);
-  }
-  near.store(entry);
-  return less_equal(near, far);
-}
-
-// Bit i: the ray's line goes through triangle i of the leaf, at distance t[i], wrong by doubt[i] at
-// most, which grows as the ray grazes the triangle. The same side products as for packets, with the
-// ray's origin as the reference.
-inline uint32_t crosses(const TreeLeaf& leaf, const RayQuery& query, float* t, float* doubt) {
+// Bit i: the ray's line passes on the same side of all three edges of triangle i; on an edge counts
+// as inside. The same side products as for packets, with the ray's origin as the reference.
+inline uint32_t lines_inside(const TreeLeaf& leaf, const float* origin, const float* towards) {
   Eight corner[3][3], direction[3];
   for (int axis = 0; axis < 3; ++axis) {
-    direction[axis] = Eight::all(query.direction[axis]);
+    direction[axis] = Eight::all(towards[axis]);
     for (int k = 0; k < 3; ++k)
-      corner[k][axis] = Eight::load(leaf.corner[k][axis]) - Eight::all(query.origin[axis]);
+      corner[k][axis] = Eight::load(leaf.corner[k][axis]) - Eight::all(origin[axis]);
   }
   Eight side[3];
   for (int k = 0; k < 3; ++k) {
@@ -58,63 +25,89 @@ inline uint32_t crosses(const TreeLeaf& leaf, const RayQuery& query, float* t, f
     side[k] = side[k] + (edge[0] * sum[1] - edge[1] * sum[0]) * direction[2];
   }
   const Eight zero = Eight::all(0);
-  const uint32_t inside = less_equal(zero, least(least(side[0], side[1]), side[2])) |
-                          less_equal(greatest(greatest(side[0], side[1]), side[2]), zero);
-  Eight whole = zero, part = zero;
+  return less_equal(zero, least(least(side[0], side[1]), side[2])) |
+         less_equal(greatest(greatest(side[0], side[1]), side[2]), zero);
+}
+
+// The ray's way to the triangles' planes is part / whole.
+inline void ways_to_planes(const TreeLeaf& leaf, const float* origin, const float* towards,
+                           Eight& part, Eight& whole) {
+  part = whole = Eight::all(0);
   for (int axis = 0; axis < 3; ++axis) {
     const Eight normal = Eight::load(leaf.normal[axis]);
-    whole = whole + normal * direction[axis];
-    part = part + normal * corner[0][axis];
+    whole = whole + normal * Eight::all(towards[axis]);
+    part = part + normal * (Eight::load(leaf.corner[0][axis]) - Eight::all(origin[axis]));
   }
-  const uint32_t oblique = less(whole, zero) | less(zero, whole);
-  (part / whole).store(t);
-  (Eight::all(query.band) / greatest(whole, zero - whole)).store(doubt);
-  return inside & oblique;
 }
 
 // Takes the triangles of a leaf that are nearer than the hit so far.
-inline void look_at_leaf(const TreeLeaf& leaf, RayQuery& query) {
-  float t[8], doubt[8];
-  for (uint32_t mask = crosses(leaf, query, t, doubt); mask; mask &= mask - 1) {
-    const int i = __builtin_ctz(mask);
+inline void look_at_leaf(const TreeLeaf& leaf, uint32_t lanes, RayQuery& query) {
+  lanes &= lines_inside(leaf, query.origin, query.direction);
+  if (!lanes) return;
+  Eight part, whole;
+  ways_to_planes(leaf, query.origin, query.direction, part, whole);
+  float parts[8], wholes[8];
+  part.store(parts);
+  whole.store(wholes);
+  for (; lanes; lanes &= lanes - 1) {
+    const int i = __builtin_ctz(lanes);
+    if (wholes[i] == 0) continue;
+    // Rounding grows as the ray grazes the triangle.
+    const float t = parts[i] / wholes[i], doubt = query.band / __builtin_fabsf(wholes[i]);
     const int32_t patch = leaf.patch[i];
-    if (t[i] + doubt[i] < query.t_min || t[i] - doubt[i] > query.t + query.doubt) continue;
-    if (t[i] - doubt[i] <= query.t_min && !query.is_above_minimum(query, patch)) continue;
-    if (t[i] + doubt[i] < query.t - query.doubt || query.is_nearer(query, patch, query.patch)) {
-      query.t = t[i];
-      query.doubt = doubt[i];
+    if (t + doubt < query.t_min || t - doubt > query.t + query.doubt) continue;
+    if (t - doubt <= query.t_min && !query.is_above_minimum(query, patch)) continue;
+    if (t + doubt < query.t - query.doubt || query.is_nearer(query, patch, query.patch)) {
+      query.t = t;
+      query.doubt = doubt;
       query.patch = patch;
     }
   }
 }
 
+struct RayEntry {
+  uint32_t child;
+  float t;
+};
+
+// Puts the children of `mask` on the stack, the nearest on top.
+inline int push_sorted(const TreeView& tree, const TreeNode& node, uint32_t mask,
+                       const float* entry, RayEntry* stack, int size) {
+  for (const int bottom = size; mask; mask &= mask - 1) {
+    const int i = __builtin_ctz(mask);
+    int place = size++;
+    for (; place > bottom && stack[place - 1].t < entry[i]; --place)
+      stack[place] = stack[place - 1];
+    stack[place] = {node.child[i], entry[i]};
+    fetch(tree, node.child[i]);
+  }
+  return size;
+}
+
 void nearest(const TreeView& tree, RayQuery& query) {
-  struct Entry {
-    uint32_t child;
-    float t;
-  };
-  const RayBoxes ray = prepare(query);
+  const RayBoxes ray = prepare(query.origin, query.direction);
   const float first = query.t_min - query.band;
-  Entry stack[tree_stack_size];
+  RayEntry stack[tree_stack_size];
   int size = 0;
   stack[size++] = {0, first};
   while (size) {
-    const Entry top = stack[--size];
+    const RayEntry top = stack[--size];
     if (top.t > query.t + query.doubt) continue;
-    if (top.child & tree_leaf_bit) {
-      look_at_leaf(tree.leaves[top.child & ~tree_leaf_bit], query);
-      continue;
+    uint32_t child = top.child;
+    // Down to a leaf, on the stack what is left aside.
+    while (!(child & tree_leaf_bit)) {
+      const TreeNode& node = tree.nodes[child];
+      float entry[8];
+      const uint32_t mask = meets(ray, node, first, query.t + query.doubt, entry);
+      if (!mask) break;
+      if (!(mask & (mask - 1))) {
+        child = node.child[__builtin_ctz(mask)];
+        continue;
+      }
+      size = push_sorted(tree, node, mask, entry, stack, size);
+      child = stack[--size].child;
     }
-    const TreeNode& node = tree.nodes[top.child];
-    float entry[8];
-    uint32_t mask = meets(ray, node, first, query.t + query.doubt, entry);
-    // Children go on the stack with the nearest on top.
-    for (const int bottom = size; mask; mask &= mask - 1) {
-      const int i = __builtin_ctz(mask);
-      int place = size++;
-      for (; place > bottom && stack[place - 1].t < entry[i]; --place)
-        stack[place] = stack[place - 1];
-      stack[place] = {node.child[i], entry[i]};
-    }
+    if (child & tree_leaf_bit)
+      look_at_leaf(tree.leaves[leaf_number(child)], leaf_lanes(child), query);
   }
 }

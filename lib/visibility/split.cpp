@@ -39,6 +39,13 @@ void Bins::add(const Bins& other) {
   }
 }
 
+namespace {
+
+// What a side costs: kernels look at a leaf's triangles together.
+int64_t blocks(int64_t count) { return (count + block_size - 1) / block_size; }
+
+}  // namespace
+
 Bins::Cut Bins::best() const {
   Cut best;
   for (int axis = 0; axis < 3; ++axis) {
@@ -50,7 +57,7 @@ Bins::Cut Bins::best() const {
     for (int i = bin_count - 1; i > 0; --i) {
       box.grow(bins_[axis][i].box);
       count += bins_[axis][i].count;
-      right_cost[i] = box.area() * static_cast<float>(count);
+      right_cost[i] = box.area() * static_cast<float>(blocks(count));
       right_count[i] = count;
     }
     box = FloatBox();
@@ -59,7 +66,7 @@ Bins::Cut Bins::best() const {
       box.grow(bins_[axis][i - 1].box);
       count += bins_[axis][i - 1].count;
       if (count == 0 || right_count[i] == 0) continue;
-      const float cost = box.area() * static_cast<float>(count) + right_cost[i];
+      const float cost = box.area() * static_cast<float>(blocks(count)) + right_cost[i];
       if (best.axis < 0 || cost < best.cost) best = {axis, i, count, cost};
     }
   }

@@ -8,6 +8,9 @@
 
 namespace hrad {
 
+// Triangles are looked at in blocks of as many.
+constexpr int64_t block_size = 8;
+
 struct FloatBox {
   float low[3] = {1e30f, 1e30f, 1e30f}, high[3] = {-1e30f, -1e30f, -1e30f};
 
@@ -57,7 +60,7 @@ class Bins {
   struct Cut {
     int axis = -1, bin = 0;
     int64_t left_count = 0;
-    float cost = 0;  // area x count, summed over both sides
+    float cost = 0;  // area x blocks of triangles, summed over both sides
   };
   Cut best() const;
 

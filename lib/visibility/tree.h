@@ -12,9 +12,15 @@
 namespace hrad {
 
 constexpr int tree_width = 8;
-// An entry of Node::child with this bit is a leaf, the rest its number; without
-// it, a node.
+// An entry of TreeNode::child with this bit is a leaf: in the three lowest bits its triangles less
+// one, between them its number. Without it, the number of a node.
 constexpr uint32_t tree_leaf_bit = 0x80000000u;
+constexpr uint32_t leaf_reference(uint32_t number, uint32_t count) {
+  return tree_leaf_bit | number << 3 | (count - 1);
+}
+constexpr uint32_t leaf_number(uint32_t reference) { return (reference & ~tree_leaf_bit) >> 3; }
+// Bit i: lane i of the leaf holds a triangle.
+constexpr uint32_t leaf_lanes(uint32_t reference) { return 0xffu >> (7 - (reference & 7u)); }
 // Deepest level of nodes, kept by the builder: bounds the stack of a traversal.
 constexpr int tree_max_depth = 72;
 constexpr int tree_stack_size = tree_max_depth * (tree_width - 1) + tree_width;
@@ -33,8 +39,7 @@ struct alignas(64) TreeNode {
   uint32_t child[tree_width];
 };
 
-// corner[corner][axis][triangle]; normal has length 1. Unused lanes have the
-// patch -1, a normal of zero, which nothing can hit, and their corners nowhere.
+// corner[corner][axis][triangle]; normal has length 1. Unused lanes are zero, with the patch -1.
 struct alignas(64) TreeLeaf {
   float corner[3][3][tree_width];
   float normal[3][tree_width];
@@ -42,8 +47,8 @@ struct alignas(64) TreeLeaf {
 };
 
 struct Tree {
-  std::vector<TreeNode> nodes; // the root first; at least one
+  std::vector<TreeNode> nodes;  // the root first; at least one
   std::vector<TreeLeaf> leaves;
 };
 
-} // namespace hrad
+}  // namespace hrad

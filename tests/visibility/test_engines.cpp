@@ -59,6 +59,33 @@ static void threads() {
   }
 }
 
+// A packet answers as its segments do one by one, whether they lie close together or not.
+static void packets_and_single_segments() {
+  ThreadTeam team(1);
+  const Scene scene = room_with_boxes(1500, 8);
+  const auto engine = make_visibility_engine(scene, "builtin", "auto", team);
+  Random random(5);
+  int64_t segments = 0, differing = 0, blocked = 0;
+  for (int i = 0; i < 3000; ++i) {
+    SegmentPacket packet = loose_packet({0, 0, 0}, {12, 9, 3}, engine->center(), random);
+    if (i % 2) {
+      const Triangle a = scene.triangle(random.below(scene.patch_count()));
+      const Triangle b = scene.triangle(random.below(scene.patch_count()));
+      packet = packet_between(a, b, engine->offset(), engine->center(), random);
+    }
+    const uint32_t together = engine->blocked(packet);
+    for (int k = 0; k < 16; ++k) {
+      packet.active = 1u << k;
+      differing += engine->blocked(packet) != (together & packet.active);
+    }
+    segments += 16;
+    blocked += __builtin_popcount(together);
+  }
+  CHECK(differing <= segments / 10000);
+  CHECK(blocked > segments / 4);
+  CHECK(blocked < segments);
+}
+
 static void against_embree() {
   ThreadTeam team(1);
   std::unique_ptr<VisibilityEngine> embree;
@@ -96,9 +123,8 @@ static void against_embree() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(names),
-      HRAD_TEST(units),
-      HRAD_TEST(threads),
+      HRAD_TEST(names),          HRAD_TEST(units),
+      HRAD_TEST(threads),        HRAD_TEST(packets_and_single_segments),
       HRAD_TEST(against_embree),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

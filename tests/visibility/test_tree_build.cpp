@@ -31,16 +31,17 @@ struct Walk {
         CHECK(child_low[axis] >= low[axis] && child_high[axis] <= high[axis]);
       }
       if (n.child[i] & tree_leaf_bit)
-        leaf(n.child[i] & ~tree_leaf_bit, child_low, child_high);
+        leaf(leaf_number(n.child[i]), leaf_lanes(n.child[i]), child_low, child_high);
       else
         node(n.child[i], depth + 1, child_low, child_high);
     }
   }
-  void leaf(uint32_t number, const float* low, const float* high) {
+  void leaf(uint32_t number, uint32_t lanes, const float* low, const float* high) {
     CHECK(number < tree.leaves.size());
     int triangles = 0;
     for (int i = 0; i < tree_width; ++i) {
       const int32_t patch = tree.leaves[number].patch[i];
+      CHECK_EQUAL(patch >= 0, (lanes >> i & 1) != 0);
       if (patch < 0) continue;
       ++triangles;
       CHECK(patches.insert(patch).second);
