@@ -10,11 +10,15 @@
 namespace hrad {
 namespace {
 
-// With sixteen rays a visible fraction that is not zero is at least a sixteenth.
-constexpr double least_visible = 1.0 / 16;
-
 // Packets of rays before a link that matters is taken for clear or dark.
 constexpr int packets_before_verdict = 4;
+constexpr int rays_before_verdict = 16 * packets_before_verdict;
+constexpr double least_visible = 1.0 / rays_before_verdict;
+// Fractions this near to 0 or 1 are.
+constexpr double almost_dark = 0.5 / rays_before_verdict;
+
+// Mean of V (1-V) over the fractions V that a shadow's edge brings.
+constexpr double partial_variance = 1.0 / 6;
 
 // Partial visibility over a receiver weighs more at points than its own variance: all light that an
 // edge cuts off is cut off along the same line.
@@ -46,25 +50,29 @@ Decision judge_energy(const OracleSettings& s, const LinkLoad& load) {
 
 Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEstimate& e,
                      double size_ratio) {
-  const double carried = load.weight * load.brightness;
-  // Partial visibility, bright and dark alike: were links that look almost clear kept more readily
-  // than those that look almost dark, the chance of sampling would brighten the scene.
-  const double visible = e.factor > 0 ? std::min(1.0, load.weight / e.factor) : 0;
-  const double partial = e.factor * load.brightness * visible * (1 - visible);
+  // What the link could carry: its weight is a sample, and links that chance has made too heavy
+  // must not be refined more readily than those it has made too light, or light is lost.
+  const double carried = e.factor * load.brightness;
   const double relative = e.factor > 0 ? e.variation / e.factor : 0;
   const double quadrature = e.factor > 0 ? e.mean_error / e.factor : 0;
+  const double visible = e.factor > 0 ? load.weight / e.factor : 0;
+  const bool partly_seen = visible > almost_dark && visible < 1 - almost_dark;
+  const double partial = partly_seen ? carried * partial_variance : 0;
   // Variation over the receiver: of the kernel, and of what is seen of the source.
-  const double at_points = (carried * relative * relative + edge_weight * partial) * point_share(s, load);
+  const double at_points =
+      (carried * relative * relative + edge_weight * partial) * point_share(s, load);
   const double in_mean =
-      (carried * quadrature * quadrature + partial / 64) * mean_share(load);
+      (carried * quadrature * quadrature + partial / rays_before_verdict) * mean_share(load);
   if (load.may_split && (at_points > s.point_variance || in_mean > s.mean_variance))
     return Decision::split_receiver;
   if (load.may_descend && load.brightness > 0) {
-    // An uneven source matters as far as the kernel or the view of it is uneven across it.
+    // An uneven source matters as far as the kernel is uneven across it, or the view of it. What is
+    // hidden from one receiver is often hidden from all, and dark for that: such errors don't average
+    // out over a patch, however small the receivers are.
     const double uneven = load.source_spread / load.brightness;
-    const double skew = std::min(1.0, size_ratio * size_ratio) +
-                        (carried > 0 ? std::min(1.0, partial / carried) : 1.0);
-    if (carried * uneven * uneven * std::min(1.0, skew) * mean_share(load) > s.mean_variance)
+    const double by_kernel = std::min(1.0, size_ratio * size_ratio) * mean_share(load);
+    const double by_view = partly_seen ? partial_variance : 0;
+    if (carried * uneven * uneven * (by_kernel + by_view) > s.mean_variance)
       return Decision::descend_source;
   }
   return Decision::keep;
