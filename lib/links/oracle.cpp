@@ -60,7 +60,9 @@ Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEs
   const double partial = partly_seen ? carried * partial_variance : 0;
   // Variation over the receiver: of the kernel, and of what is seen of the source.
   const double at_points =
-      (carried * relative * relative + edge_weight * partial) * point_share(s, load);
+      load.receiver_area > s.point_min_area
+          ? (carried * relative * relative + edge_weight * partial) * point_share(s, load)
+          : 0;
   const double in_mean =
       (carried * quadrature * quadrature + partial / rays_before_verdict) * mean_share(load);
   if (load.may_split && (at_points > s.point_variance || in_mean > s.mean_variance))
@@ -92,7 +94,7 @@ int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEsti
   const bool in_question =
       e.factor * load.brightness * point_share(s, load) > s.last_point_variance;
   const int least = even && in_question ? packets_before_verdict : 1;
-  return std::max(least, std::min(s.most_packets, static_cast<int>(wanted) + 1));
+  return std::min(s.most_packets, std::max(least, static_cast<int>(wanted) + 1));
 }
 
 }  // namespace hrad

@@ -21,7 +21,8 @@ struct OracleSettings {
   double mean_variance = 0, point_variance = 0;
   double last_point_variance = 0;  // point_variance of the last round
   double point_area = 1;    // area at which point_variance holds; smaller elements may err more
-  double min_area = 0;      // smaller receivers are not split
+  double point_min_area = 0;  // smaller receivers are not split for the sake of points
+  double min_area = 0;        // nor for that of means
   double near_ratio = 0.4;  // LinkSampler's
   uint64_t seed = 1;
   int most_packets = 16;    // of visibility for one link

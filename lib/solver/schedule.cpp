@@ -17,6 +17,9 @@ constexpr double point_share = 0.4;
 constexpr double point_area_share = 1.0 / 4000;
 // Smallest element as a share of all area, at accuracy 1; falls with the square of the accuracy.
 constexpr double smallest_share = 1.0 / 400;
+// Smallest element that is split for the sake of points, as a share of all area at accuracy 1; falls
+// with the accuracy. Shadows have edges at every scale, and means don't need them resolved.
+constexpr double smallest_point_share = 1e-4;
 // The energy oracle's default: the power of a link as a share of all emitted power, at accuracy 1.
 constexpr double power_share = 1.0 / 20000;
 // Thresholds fall by this factor from round to round (in power; errors by its root).
@@ -51,6 +54,8 @@ OracleSettings oracle_of_round(const Params& params, const State& state, int rou
   s.point_variance = ease * point * point;
   s.last_point_variance = point * point;
   s.point_area = area * point_area_share;
+  s.point_min_area =
+      params.min_area > 0 ? params.min_area : area * smallest_point_share * accuracy;
   s.min_area = params.min_area > 0 ? params.min_area
                                    : area * smallest_share * accuracy * accuracy;
   // The kernel between sampled points errs with the square of size over distance.

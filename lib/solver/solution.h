@@ -26,7 +26,8 @@ struct Solver::Solution {
   int rounds_done = 0;           // refinement rounds whose sweeps are done
   int tightened = 0;             // times the thresholds were lowered after measuring
   double scale = 1;              // of the thresholds, after that
-  bool sweeping = false;         // a round is refined, its sweeps are under way
+  bool sweeping = false;         // sweeps are under way
+  int sweeping_round = 0;        // those of this round, whose links are refined already
   Convergence convergence{0};    // of these sweeps
   bool converged = false;        // the last sweeps stood still
   bool finished = false;         // measured

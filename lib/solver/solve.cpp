@@ -58,6 +58,8 @@ class Solver::Run {
 
   Status run() {
     start_over_if_the_light_changed();
+    // Sweeps that a stop broke off go on first.
+    if (solution_.sweeping && !sweep(solution_.sweeping_round)) return Status::stopped;
     if (!solution_.linked && !link()) return Status::stopped;
     if (params_.refine == 0) {
       if (!sweep(first_rounds)) return Status::stopped;
@@ -121,20 +123,18 @@ class Solver::Run {
 
   bool round() {
     const int number = solution_.rounds_done + 1;
-    if (!solution_.sweeping) {
-      const double from = 0.25 + 0.7 * share_of_rounds(number - 1);
-      clock_.begin("refine", from, from + 0.6 * (share_of_rounds(number) - share_of_rounds(number - 1)));
-      const auto start = std::chrono::steady_clock::now();
-      const Brightness brightness = measure_brightness(state_, *solution_.team);
-      const bool done = refine_links(state_, tools(number), brightness);
-      solver_.stats_.seconds_iterative +=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      if (!done) return false;
-      ++solver_.stats_.rounds;
-    }
-    if (!sweep(number)) return false;
+    const double from = 0.25 + 0.7 * share_of_rounds(number - 1);
+    const double whole = share_of_rounds(number) - share_of_rounds(number - 1);
+    clock_.begin("refine", from, from + 0.6 * whole);
+    const auto start = std::chrono::steady_clock::now();
+    const Brightness brightness = measure_brightness(state_, *solution_.team);
+    const bool done = refine_links(state_, tools(number), brightness);
+    solver_.stats_.seconds_iterative +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!done) return false;
+    ++solver_.stats_.rounds;
     solution_.rounds_done = number;
-    return true;
+    return sweep(number);
   }
 
   // Later rounds are the longer ones.
@@ -150,6 +150,7 @@ class Solver::Run {
     clock_.begin("sweep", clock_.fraction(), clock_.fraction() + 0.02);
     if (!solution_.sweeping) {
       solution_.sweeping = true;
+      solution_.sweeping_round = round;
       solution_.convergence = Convergence(sweep_tolerance(params_, round));
     }
     bool going_on = true;
