@@ -1,8 +1,8 @@
 // The two oracles. The error-driven one gives every link a share of the error that is proportional
-// to the light it carries: with v the relative error of a link and s = weight * brightness its share
-// of the irradiance, links of independent errors add up to a variance of sum (v s)^2, so v^2 s below
-// a constant keeps that sum below the constant times the irradiance, however finely a source is
-// split. Floor 6 (links).
+// to the light it carries: with v the relative error of a link and s = weight * brightness its
+// share of the irradiance, links of independent errors add up to a variance of sum (v s)^2, so v^2
+// s below a constant keeps that sum below the constant times the irradiance, however finely a
+// source is split. Floor 6 (links).
 #include "links/oracle.h"
 
 #include <algorithm>
@@ -69,8 +69,8 @@ Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEs
     return Decision::split_receiver;
   if (load.may_descend && load.brightness > 0) {
     // An uneven source matters as far as the kernel is uneven across it, or the view of it. What is
-    // hidden from one receiver is often hidden from all, and dark for that: such errors don't average
-    // out over a patch, however small the receivers are.
+    // hidden from one receiver is often hidden from all, and dark for that: such errors don't
+    // average out over a patch, however small the receivers are.
     const double uneven = load.source_spread / load.brightness;
     const double by_kernel = std::min(1.0, size_ratio * size_ratio) * mean_share(load);
     const double by_view = partly_seen ? partial_variance : 0;
@@ -88,8 +88,8 @@ int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEsti
   const double error = e.factor * load.brightness * variance * mean_share(load);
   const double wanted = error / (16 * s.mean_variance);
   // Nothing seen, or nothing blocked, by n rays means a share below about 1/n, not none. Links that
-  // look dark or clear are refined no further, others are: where that is to be decided by chance, in
-  // this round or in a later one, few rays would lose light for good. The loss falls with 1/n^2.
+  // look dark or clear are refined no further, others are: where that is to be decided by chance,
+  // in this round or in a later one, few rays would lose light for good. The loss falls with 1/n^2.
   const bool even = visible <= 0 || visible >= 1;
   const bool in_question =
       e.factor * load.brightness * point_share(s, load) > s.last_point_variance;

@@ -19,12 +19,13 @@ namespace hrad {
 namespace {
 
 // How often the thresholds are lowered when a measurement shows that the accuracy was missed.
-constexpr int most_tightenings = 4;
+constexpr int most_tightenings = 2;
 
 double user_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+  return static_cast<double>(usage.ru_utime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
 }
 
 uint64_t hash_of_light(const Scene& scene) {
@@ -49,7 +50,9 @@ void measure_exposure(State& state, const StageTools& tools) {
 class Solver::Run {
  public:
   Run(Solver& solver)
-      : solver_(solver), solution_(*solver.solution_), state_(solver.solution_->state),
+      : solver_(solver),
+        solution_(*solver.solution_),
+        state_(solver.solution_->state),
         params_(solver.params_),
         clock_([&solver](const Progress& p) {
           return !solver.stop_requested_.load(std::memory_order_relaxed) &&
@@ -143,8 +146,8 @@ class Solver::Run {
     return std::min(1.0, (done * (done + 1.0)) / (all * (all + 1.0)));
   }
 
-  // Gathering and push-pull until the radiosity transported stands still; goes on where a stop broke
-  // it off.
+  // Gathering and push-pull until the radiosity transported stands still; goes on where a stop
+  // broke it off.
   bool sweep(int round) {
     const auto start = std::chrono::steady_clock::now();
     clock_.begin("sweep", clock_.fraction(), clock_.fraction() + 0.02);
@@ -159,8 +162,7 @@ class Solver::Run {
       gather(state_, *solution_.team);
       push_pull(state_, *solution_.team);
       ++solver_.stats_.iterations;
-      solution_.converged =
-          solution_.convergence.reached(transported(state_, *solution_.team));
+      solution_.converged = solution_.convergence.reached(transported(state_, *solution_.team));
       going_on = clock_.report(0.5, solver_.stats_.iterations);
     }
     solver_.stats_.seconds_iterative +=
@@ -189,11 +191,11 @@ class Solver::Run {
   // True when the measurement says that the accuracy is missed and there is something left to try.
   bool tighten() {
     const double error = solver_.stats_.error_estimate;
-    const double sure = error - solver_.stats_.error_standard_error;
-    if (!(sure > params_.accuracy) || solution_.tightened >= most_tightenings || params_.tolerance > 0 ||
-        params_.oracle == "energy")
+    const double sure = error - 2 * solver_.stats_.error_standard_error;
+    if (!(sure > params_.accuracy) || solution_.tightened >= most_tightenings ||
+        params_.tolerance > 0 || params_.oracle == "energy")
       return false;
-    solution_.scale *= std::max(0.3, std::min(0.7, 0.7 * params_.accuracy / error));
+    solution_.scale *= std::max(0.5, std::min(0.7, 0.7 * params_.accuracy / error));
     ++solution_.tightened;
     solution_.finished = false;
     return true;
