@@ -3,6 +3,7 @@
 
 # Far longer than any test may take when nothing stops it.
 start() {
+  rm -f out err  # of the round before
   "$HRAD" solve classroom --accuracy 0.0005 -v -o result.csv >out 2>err &
   process=$!
   until grep -q '^hrad: stage' err || ! kill -0 $process; do sleep 0.1; done
