@@ -2,6 +2,7 @@
 #include "solver/reconstruction.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/corner_index.h"
 
@@ -41,12 +42,14 @@ Reconstruction::Reconstruction(const Forest& forest, int bands, const std::vecto
   std::vector<double> sum(corners * bands, 0.0), weight(corners, 0.0);
   for (size_t k = 0; k < leaves.size(); ++k) {
     const Node& leaf = forest.nodes[leaves[k]];
-    const double area = forest.area(leaf) * leaf.exposed;
+    // The mean of a small leaf says more about its corner than that of a large one, whose middle is
+    // farther away: weights fall with the size.
+    const double nearness = leaf.exposed / std::sqrt(forest.area(leaf));
     for (int32_t c : corner_[k]) {
-      weight[c] += area;
+      weight[c] += nearness;
       for (int b = 0; b < bands; ++b)
         sum[static_cast<size_t>(c) * bands + b] +=
-            area * irradiance[static_cast<size_t>(leaves[k]) * bands + b];
+            nearness * irradiance[static_cast<size_t>(leaves[k]) * bands + b];
     }
   }
   value_.resize(corners * bands);

@@ -14,7 +14,7 @@ class Reconstruction {
  public:
   // irradiance: `bands` numbers per node, means over the exposed part. Leaves meet at a corner
   // within one surface and across the edges it shares with surfaces of the same plane; they weigh
-  // in with their exposed areas. The value at a corner that lies within a longer edge of a neighbour
+  // in with their exposed share over their size. The value at a corner that lies within a longer edge of a neighbour
   // is that edge's own, so that no cracks open.
   Reconstruction(const Forest& forest, int bands, const std::vector<NodeId>& leaves,
                  const std::vector<float>& irradiance);
