@@ -60,7 +60,7 @@ struct Tolerance {
   double points_rms;
 };
 // Rooms without a contact or a narrow gap, patch by patch.
-constexpr Tolerance kPlain = {0.005, 0.003, 0.005, 0.03};
+constexpr Tolerance kPlain = {0.005, 0.003, 0.005, 0.045};
 constexpr Tolerance kSmall = {0.01, 0.005, 0.03, 0.03};
 // Compartments and slots a few centimetres wide between closed solids.
 constexpr Tolerance kCrowded = {0.01, 0.0075, 0.08, 0.03};
