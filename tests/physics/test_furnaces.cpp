@@ -60,11 +60,11 @@ struct Tolerance {
   double points_rms;
 };
 // Rooms without a contact or a narrow gap, patch by patch.
-constexpr Tolerance kPlain = {0.005, 0.003, 0.005, 0.045};
+constexpr Tolerance kPlain = {0.005, 0.003, 0.005, 0.032};
 constexpr Tolerance kSmall = {0.01, 0.005, 0.03, 0.03};
 // Compartments and slots a few centimetres wide between closed solids.
-constexpr Tolerance kCrowded = {0.01, 0.0075, 0.08, 0.03};
-constexpr Tolerance kLarge = {0.1, 0.04, 0.6, 0.08};
+constexpr Tolerance kCrowded = {0.01, 0.0065, 0.08, 0.03};
+constexpr Tolerance kLarge = {0.1, 0.025, 0.6, 0.08};
 
 // Checks patch means and points; false when the scene isn't closed, so that nothing is to be said.
 bool check_furnace(ApiSolver& solver, const char* name, const Tolerance& tolerance) {
