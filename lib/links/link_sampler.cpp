@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/angle.h"
+#include "links/close_pairs.h"
 #include "links/mean_factor.h"
 
 namespace hrad {
@@ -21,33 +22,63 @@ double half_range(const double v[4]) {
 
 }  // namespace
 
-uint32_t LinkSampler::exposed_mask(const Element& element, uint64_t key, bool as_receiver) const {
-  if (element.exposed >= 1) return all_pairs;
+bool LinkSampler::is_exposed(const Element& element, double u, double v) const {
+  if (element.exposed >= 1) return true;
   const Surface& surface = forest_.surfaces[element.surface];
-  uint32_t mask = 0;
-  for (int k = 0; k < lanes_per_packet; ++k) {
-    double receiver_uv[2], source_uv[2];
-    pair_points(key, k, receiver_uv, source_uv);
-    const double* uv = as_receiver ? receiver_uv : source_uv;
-    if (!exposure_.sealed(surface.patch, surface.side, element.corners.at(uv[0], uv[1])))
-      mask |= 1u << k;
-  }
-  return mask;
+  return !exposure_.sealed(surface.patch, surface.side, element.corners.at(u, v));
 }
 
+// Points on the sealed part are drawn again until they lie on the exposed one. As often as it takes
+// where a hundredth is exposed; a point that stays sealed counts as blocked.
+void LinkSampler::move_to_exposed(const Element& element, uint64_t key, float u[16],
+                                  float v[16]) const {
+  constexpr uint64_t most_draws = 400;
+  for (int k = 0; k < lanes_per_packet; ++k) {
+    for (uint64_t draw = 0; draw < most_draws; ++draw) {
+      if (is_exposed(element, u[k], v[k])) break;
+      double uv[2];
+      spread_point(mix(key, draw), static_cast<int>((k + draw) % lanes_per_packet), uv);
+      u[k] = static_cast<float>(uv[0]);
+      v[k] = static_cast<float>(uv[1]);
+    }
+  }
+}
+
+// The pairs that are traced, with all that the first look at a link does without.
 void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t key,
-                       DrawnPairs& drawn) const {
-  draw_pairs(receiver, source, key, engine_.center(), engine_.offset(), drawn.samples);
-  drawn.receiver_exposed = exposed_mask(receiver, key, true);
-  drawn.source_exposed = exposed_mask(source, key, false);
+                       LinkEstimate& estimate, DrawnPairs& drawn) const {
+  PairPoints points = pattern_of(key);
+  const bool up = receiver.area <= source.area;
+  estimate.close_pairs = estimate.near && is_close(receiver, source);
+  // Of close pairs the points on the larger end are drawn sealed or not.
+  const bool move_receiver = receiver.exposed < 1 && (up || !estimate.close_pairs);
+  const bool move_source = source.exposed < 1 && !(up && estimate.close_pairs);
+  if (move_receiver) move_to_exposed(receiver, mix(key, 1), points.receiver_u, points.receiver_v);
+  if (move_source) move_to_exposed(source, mix(key, 2), points.source_u, points.source_v);
+  estimate.exposed_only = move_receiver || move_source;
+  estimate.exposed = move_receiver ? 1 : receiver.exposed;
+  estimate.source_exposed = move_source ? 1 : source.exposed;
+  estimate.source_area = move_source ? source.area * source.exposed : source.area;
+  if (estimate.close_pairs)
+    draw_close_pairs(receiver, source, key, engine_.center(), engine_.offset(), points,
+                     drawn.samples);
+  else
+    place_pairs(receiver, source, points, engine_.center(), engine_.offset(), drawn.samples);
+  drawn.exposed = 0;
+  for (int k = 0; k < lanes_per_packet; ++k)
+    if (is_exposed(receiver, points.receiver_u[k], points.receiver_v[k]) &&
+        is_exposed(source, points.source_u[k], points.source_v[k]))
+      drawn.exposed |= 1u << k;
 }
 
 void LinkSampler::begin(const Element& receiver, const Element& source, uint64_t key,
                         DrawnPairs& drawn, LinkEstimate& estimate) const {
-  draw(receiver, source, key, drawn);
+  draw_pairs(receiver, source, key, engine_.center(), engine_.offset(), drawn.samples);
+  drawn.exposed = all_pairs;
   estimate = LinkEstimate{};
   estimate.source_area = source.area;
   estimate.exposed = receiver.exposed;
+  estimate.source_exposed = source.exposed;
   const float* kernel = drawn.samples.kernel;
   double quarter[4];
   for (int q = 0; q < 4; ++q)
@@ -83,34 +114,41 @@ void LinkSampler::begin(const Element& receiver, const Element& source, uint64_t
 void LinkSampler::add(const DrawnPairs& drawn, uint32_t lanes, uint32_t blocked,
                       LinkEstimate& estimate) {
   rays_ += __builtin_popcount(lanes);
-  const uint32_t seen = lanes & drawn.receiver_exposed & drawn.source_exposed & ~blocked;
+  const uint32_t seen = lanes & drawn.exposed & ~blocked;
   for (int k = 0; k < lanes_per_packet; ++k) {
     if (!(lanes >> k & 1)) continue;
     // Near each other a pair of points may all but touch: it stands for a sixteenth of the source,
     // whose form factor is at most 1.
     double kernel = drawn.samples.kernel[k];
-    if (estimate.near) kernel = std::min(kernel, lanes_per_packet / estimate.source_area);
+    if (estimate.near && !estimate.close_pairs)
+      kernel = std::min(kernel, lanes_per_packet / estimate.source_area);
     estimate.kernel_sum += kernel;
     if (seen >> k & 1) estimate.visible_sum += kernel;
     ++estimate.pairs;
   }
 }
 
-void LinkSampler::trace(const DrawnPairs& drawn, LinkEstimate& estimate) {
+void LinkSampler::trace_drawn(const DrawnPairs& drawn, LinkEstimate& estimate) {
   add(drawn, all_pairs, engine_.blocked(drawn.samples.packet), estimate);
+}
+
+void LinkSampler::trace(const Element& receiver, const Element& source, uint64_t key,
+                        DrawnPairs& drawn, LinkEstimate& estimate) {
+  if (receiver.exposed < 1 || source.exposed < 1 || (estimate.near && is_close(receiver, source)))
+    draw(receiver, source, key, estimate, drawn);
+  trace_drawn(drawn, estimate);
 }
 
 void LinkSampler::trace_more(const Element& receiver, const Element& source, uint64_t key,
                              int packets, LinkEstimate& estimate) {
   DrawnPairs drawn;
   for (int k = 1; k < packets; ++k) {
-    draw(receiver, source, mix(key, static_cast<uint64_t>(k)), drawn);
-    trace(drawn, estimate);
+    draw(receiver, source, mix(key, static_cast<uint64_t>(k)), estimate, drawn);
+    trace_drawn(drawn, estimate);
   }
   // The more pairs, the better the sampled kernel: use all of them.
   if (!estimate.near && estimate.pairs > 0)
-    estimate.factor =
-        std::min(1.0, estimate.kernel_sum / estimate.pairs * estimate.source_area);
+    estimate.factor = std::min(1.0, estimate.kernel_sum / estimate.pairs * estimate.source_area);
 }
 
 float LinkSampler::exposed_share(const Node& place) const {

@@ -15,33 +15,40 @@ namespace hrad {
 
 // What is known of a link; grows as packets are traced.
 struct LinkEstimate {
-  double factor = 0;      // form factor without occlusion, mean over the whole receiver
-  double variation = 0;   // half the range of it among the receiver's quarters
-  double mean_error = 0;  // error of its mean over the receiver, estimated
-  bool near = false;      // factor is Lambert's
-  double source_area = 0;
+  double factor = 0;         // form factor without occlusion, mean over the whole receiver
+  double variation = 0;      // half the range of it among the receiver's quarters
+  double mean_error = 0;     // error of its mean over the receiver, estimated
+  bool near = false;         // factor is Lambert's
+  double source_area = 0;    // that the pairs are drawn from
+  bool close_pairs = false;  // its pairs are draw_close_pairs'
   double kernel_sum = 0, visible_sum = 0;  // over the traced pairs
   int pairs = 0;                           // traced pairs; those on sealed points count as blocked
   double visible() const { return kernel_sum > 0 ? visible_sum / kernel_sum : 0; }
-  double exposed = 1;  // share of the receiver: all light arrives there
+  // Shares of what the pairs are drawn from that are exposed. All light arrives on the receiver's.
+  double exposed = 1, source_exposed = 1;
+  bool exposed_only = false;  // the pairs are drawn from an exposed part alone, of one end or both
+  // Share of the pairs that say anything about visibility: both ends exposed.
+  double telling() const { return exposed * source_exposed; }
   // Form factor times visible fraction, mean over the receiver's exposed part, at most 1.
   double weight() const { return std::min(1.0, seen() / exposed); }
-  // The same over the whole receiver. Not their product, which a handful of pairs makes too large
-  // or too small on the average where kernel and visibility go together, but without bias: the form
-  // factor less the blocked part, or the visible part alone, whichever was sampled to be smaller.
+  // The same over all that the pairs start from. Not their product, which a handful of pairs makes
+  // too large or too small on the average where kernel and visibility go together, but without
+  // bias: the form factor less the blocked part, or the visible part alone, whichever was sampled
+  // to be smaller. The form factor is of whole elements, so that exposed parts have but the latter.
   double seen() const {
     if (pairs == 0) return 0;
     const double visible_part = source_area * visible_sum / pairs;
     const double blocked_part = source_area * (kernel_sum - visible_sum) / pairs;
+    if (exposed_only) return visible_part;
     if (blocked_part <= visible_part) return blocked_part < factor ? factor - blocked_part : 0;
     return visible_part < factor ? visible_part : factor;
   }
 };
 
-// A packet under way: the drawn pairs and which of them end on exposed points.
+// A packet under way: the drawn pairs and which of them have exposed points at both ends.
 struct DrawnPairs {
   PairSamples samples;
-  uint32_t receiver_exposed = all_pairs, source_exposed = all_pairs;
+  uint32_t exposed = all_pairs;
 };
 
 // One for each worker.
@@ -50,7 +57,10 @@ class LinkSampler {
   // near_ratio: below this (receiver radius + source radius) / distance the kernel is sampled.
   LinkSampler(const Forest& forest, const VisibilityEngine& engine, const Exposure& exposure,
               uint64_t seed, double near_ratio)
-      : forest_(forest), engine_(engine), exposure_(exposure), seed_(seed),
+      : forest_(forest),
+        engine_(engine),
+        exposure_(exposure),
+        seed_(seed),
         near_ratio_(near_ratio) {}
 
   // The unoccluded form factor; draws the first packet's pairs on the way.
@@ -58,11 +68,13 @@ class LinkSampler {
              LinkEstimate& estimate) const;
 
   // Adds the outcome of tracing the pairs of `lanes`: bit k of blocked: pair k is blocked.
-  void add(const DrawnPairs& drawn, uint32_t lanes, uint32_t blocked,
-           LinkEstimate& estimate);
+  void add(const DrawnPairs& drawn, uint32_t lanes, uint32_t blocked, LinkEstimate& estimate);
 
-  // Traces a whole packet of the drawn pairs and adds it.
-  void trace(const DrawnPairs& drawn, LinkEstimate& estimate);
+  // Traces a whole packet of the drawn pairs and adds it. Where the ends come close to each other
+  // pairs are drawn anew in proportion to the form factor, where an end is partly sealed, from its
+  // exposed part.
+  void trace(const Element& receiver, const Element& source, uint64_t key, DrawnPairs& drawn,
+             LinkEstimate& estimate);
 
   // Draws and traces further packets until `packets` are in the estimate, the first included.
   void trace_more(const Element& receiver, const Element& source, uint64_t key, int packets,
@@ -84,9 +96,11 @@ class LinkSampler {
   }
 
  private:
-  void draw(const Element& receiver, const Element& source, uint64_t key,
+  void draw(const Element& receiver, const Element& source, uint64_t key, LinkEstimate& estimate,
             DrawnPairs& drawn) const;
-  uint32_t exposed_mask(const Element& element, uint64_t key, bool as_receiver) const;
+  bool is_exposed(const Element& element, double u, double v) const;
+  void move_to_exposed(const Element& element, uint64_t key, float u[16], float v[16]) const;
+  void trace_drawn(const DrawnPairs& drawn, LinkEstimate& estimate);
 
   const Forest& forest_;
   const VisibilityEngine& engine_;

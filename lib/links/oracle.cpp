@@ -12,6 +12,7 @@ namespace {
 
 // Packets of rays before a link that matters is taken for clear or dark.
 constexpr int packets_before_verdict = 4;
+constexpr int most_packets_before_verdict = 64;
 constexpr int rays_before_verdict = 16 * packets_before_verdict;
 constexpr double least_visible = 1.0 / rays_before_verdict;
 // Fractions this near to 0 or 1 are.
@@ -93,8 +94,11 @@ int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEsti
   const bool even = visible <= 0 || visible >= 1;
   const bool in_question =
       e.factor * load.brightness * point_share(s, load) > s.last_point_variance;
-  const int least = even && in_question ? packets_before_verdict : 1;
-  return std::min(s.most_packets, std::max(least, static_cast<int>(wanted) + 1));
+  const int packets = std::min(s.most_packets, static_cast<int>(wanted) + 1);
+  if (!even) return packets;
+  // Pairs on sealed points say nothing: where little is exposed it takes more to meet that little.
+  const double least = (in_question ? packets_before_verdict : 1) / std::max(1e-9, e.telling());
+  return std::max(packets, static_cast<int>(std::min<double>(most_packets_before_verdict, least)));
 }
 
 }  // namespace hrad

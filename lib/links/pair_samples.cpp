@@ -11,10 +11,6 @@ namespace {
 
 constexpr int pattern_count = 256;
 
-struct Pattern {
-  float receiver_u[16], receiver_v[16], source_u[16], source_v[16];
-};
-
 // A point of the sub-triangle `part` (0..15: quarter, then quarter of the quarter) of the unit
 // triangle.
 void point_in_part(int part, double a, double b, float* u, float* v) {
@@ -44,8 +40,8 @@ void permutation(uint64_t hash, int order[4]) {
   }
 }
 
-Pattern make_pattern(int number) {
-  Pattern p;
+PairPoints make_pattern(int number) {
+  PairPoints p;
   const uint64_t seed = mix(static_cast<uint64_t>(number), 0x7061697273u);
   int shift[4], within[4];
   permutation(mix(seed, 1), shift);
@@ -65,15 +61,6 @@ Pattern make_pattern(int number) {
   return p;
 }
 
-const Pattern& pattern_of(uint64_t key) {
-  static const std::vector<Pattern> patterns = [] {
-    std::vector<Pattern> made;
-    for (int k = 0; k < pattern_count; ++k) made.push_back(make_pattern(k));
-    return made;
-  }();
-  return patterns[key % pattern_count];
-}
-
 struct FloatTriangle {
   float ax, ay, az, ux, uy, uz, vx, vy, vz, nx, ny, nz;
 };
@@ -83,15 +70,28 @@ FloatTriangle lifted(const Element& e, Vec3 center, double offset) {
   const Vec3 a = e.corners.a - center + e.normal * offset;
   const Vec3 u = e.corners.b - e.corners.a, v = e.corners.c - e.corners.a;
   const auto f = [](double x) { return static_cast<float>(x); };
-  return {f(a.x), f(a.y), f(a.z), f(u.x), f(u.y), f(u.z),
+  return {f(a.x), f(a.y), f(a.z), f(u.x),        f(u.y),        f(u.z),
           f(v.x), f(v.y), f(v.z), f(e.normal.x), f(e.normal.y), f(e.normal.z)};
 }
 
 }  // namespace
 
+const PairPoints& pattern_of(uint64_t key) {
+  static const std::vector<PairPoints> patterns = [] {
+    std::vector<PairPoints> made;
+    for (int k = 0; k < pattern_count; ++k) made.push_back(make_pattern(k));
+    return made;
+  }();
+  return patterns[mix(key) % pattern_count];
+}
+
 void draw_pairs(const Element& receiver, const Element& source, uint64_t key, Vec3 center,
                 double offset, PairSamples& samples) {
-  const Pattern& p = pattern_of(mix(key));
+  place_pairs(receiver, source, pattern_of(key), center, offset, samples);
+}
+
+void place_pairs(const Element& receiver, const Element& source, const PairPoints& p, Vec3 center,
+                 double offset, PairSamples& samples) {
   const FloatTriangle r = lifted(receiver, center, offset), s = lifted(source, center, offset);
   const float pi_float = static_cast<float>(pi);
   SegmentPacket& packet = samples.packet;
@@ -122,7 +122,7 @@ void draw_pairs(const Element& receiver, const Element& source, uint64_t key, Ve
 }
 
 void pair_points(uint64_t key, int k, double receiver_uv[2], double source_uv[2]) {
-  const Pattern& p = pattern_of(mix(key));
+  const PairPoints& p = pattern_of(key);
   receiver_uv[0] = p.receiver_u[k];
   receiver_uv[1] = p.receiver_v[k];
   source_uv[0] = p.source_u[k];

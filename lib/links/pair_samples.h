@@ -14,9 +14,14 @@ constexpr uint32_t all_pairs = 0xffff;
 // One pair in each quarter of the receiver and each quarter of the source.
 constexpr uint32_t quick_pairs = 0x1111;
 
+// Where the pairs lie: (u,v) of Triangle::at on receiver and source.
+struct PairPoints {
+  float receiver_u[16], receiver_v[16], source_u[16], source_v[16];
+};
+
 struct PairSamples {
-  SegmentPacket packet;    // pairs 4q .. 4q+3 start in quarter q of the receiver
-  float kernel[16];        // cos * cos' / (pi d^2), in 1/unit^2; 0 behind a horizon
+  SegmentPacket packet;  // pairs 4q .. 4q+3 start in quarter q of the receiver
+  float kernel[16];      // cos * cos' / (pi d^2), in 1/unit^2; 0 behind a horizon
 };
 
 // Draws the pairs from the key's hash: stratified on both sides, so that every quarter of the
@@ -24,8 +29,12 @@ struct PairSamples {
 void draw_pairs(const Element& receiver, const Element& source, uint64_t key, Vec3 center,
                 double offset, PairSamples& samples);
 
-// The points of pair k on the receiver and on the source (u, v of Triangle::at), as draw_pairs takes
-// them for this key.
+// The same with given points.
+void place_pairs(const Element& receiver, const Element& source, const PairPoints& points,
+                 Vec3 center, double offset, PairSamples& samples);
+
+// The points that draw_pairs takes for this key: one in each of the sixteenths on both sides.
+const PairPoints& pattern_of(uint64_t key);
 void pair_points(uint64_t key, int k, double receiver_uv[2], double source_uv[2]);
 
 // (u,v) of point k of 16 spread over a triangle, one in each of its sixteenths.

@@ -138,7 +138,7 @@ class PairLinker {
     const LinkLoad load = load_of(p, q, e.factor);
     if (e.factor * load.brightness > tools_.oracle.mean_variance ||
         !LinkSampler::may_probe(receiver, source)) {
-      sampler.trace(drawn, e);
+      sampler.trace(receiver, source, key, drawn, e);
       const int packets = packets_wanted(tools_.oracle, load, e);
       if (packets > 1) sampler.trace_more(receiver, source, key, packets, e);
       keep(p, q, e);

@@ -103,7 +103,8 @@ LinkLoad SubtreeRefiner::load_of(int32_t at, const Link& link, double source_are
   return load;
 }
 
-// An old link, or one that came down from an earlier pass: its weight is known, its geometry is not.
+// An old link, or one that came down from an earlier pass: its weight is known, its geometry is
+// not.
 void SubtreeRefiner::weigh(int32_t at, Link link) {
   const LinkLoad load = load_of(at, link, state_.forest.area(state_.forest.nodes[link.source]));
   if (surely_good(tools_.oracle, load) || (!load.may_split && !load.may_descend)) {
@@ -116,8 +117,7 @@ void SubtreeRefiner::weigh(int32_t at, Link link) {
   LinkEstimate estimate;
   if (tools_.oracle.kind == OracleKind::error || load.may_split) {
     const Element& receiver = element(at);
-    const uint64_t key =
-        sampler_.link_key(work_[at].key, key_of(state_.forest, source_node));
+    const uint64_t key = sampler_.link_key(work_[at].key, key_of(state_.forest, source_node));
     sampler_.begin(receiver, source, key, drawn, estimate);
   }
   weigh_known(at, link, source, estimate);
@@ -231,13 +231,12 @@ void SubtreeRefiner::descend(int32_t at, Link link, double visible) {
 
 LinkEstimate SubtreeRefiner::traced(int32_t at, const Element& source, uint64_t source_key,
                                     NodeId source_id, DrawnPairs& drawn, LinkEstimate begun) {
-  sampler_.trace(drawn, begun);
-  const LinkLoad load =
-      load_of(at, {source_id, static_cast<float>(begun.factor)}, source.area);
+  const Element& receiver = element(at);
+  const uint64_t key = sampler_.link_key(work_[at].key, source_key);
+  sampler_.trace(receiver, source, key, drawn, begun);
+  const LinkLoad load = load_of(at, {source_id, static_cast<float>(begun.factor)}, source.area);
   const int packets = packets_wanted(tools_.oracle, load, begun);
-  if (packets > 1)
-    sampler_.trace_more(element(at), source, sampler_.link_key(work_[at].key, source_key), packets,
-                        begun);
+  if (packets > 1) sampler_.trace_more(receiver, source, key, packets, begun);
   return begun;
 }
 
