@@ -52,7 +52,7 @@ _hrad() {
       if [[ $command == scene ]]; then
         _hrad_files 'obj' "$word"
       else
-        _hrad_files 'csv|vtu' "$word"
+        _hrad_files 'csv|vtu|ply|glb' "$word"
       fi
       return
       ;;

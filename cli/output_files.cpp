@@ -22,7 +22,7 @@ struct Format {
 
 constexpr Format formats[] = {
     {".csv", OutputFiles::results, true},   {".vtu", OutputFiles::results, true},
-    {".ply", OutputFiles::results, false},  {".glb", OutputFiles::results, false},
+    {".ply", OutputFiles::results, true},   {".glb", OutputFiles::results, true},
     {".hrad", OutputFiles::results, false}, {".obj", OutputFiles::scenes, true},
 };
 

@@ -394,9 +394,11 @@ HRAD_API hrad_status hrad_write_checkpoint(hrad_solver *solver, const char *path
 HRAD_API hrad_status hrad_read_checkpoint(hrad_solver *solver, const char *path);
 
 /* [C] Writes the solution in the format of the path's ending: .csv (one row per leaf: patch, face, side,
- * corners, area, mean radiosity per band) or .vtu (VTK unstructured grid); .obj writes the scene itself
- * with its .mtl beside it and needs no solve. .ply and .glb answer UNSUPPORTED in this version. The file
- * appears whole under its name or not at all. Errors: FILE, STATE before a solve, UNSUPPORTED. */
+ * corners, area, mean radiosity per band), .vtu (VTK unstructured grid), .ply (polygon file) or .glb
+ * (binary glTF 2.0): README, "Files it writes"; .obj writes the scene itself with its .mtl beside it
+ * and needs no solve. The file appears whole under its name or not at all. Errors: ARGUMENT for another
+ * ending, FILE, STATE before a solve, UNSUPPORTED for a solution larger than the format can hold (.glb:
+ * 4 GiB). */
 HRAD_API hrad_status hrad_export(const hrad_solver *solver, const char *path);
 
 #ifdef __cplusplus

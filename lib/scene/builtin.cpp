@@ -38,6 +38,7 @@ void make_builtin_scene(Scene& scene, const std::string& name) {
   for (const BuiltinScene& builtin : builtin_scenes) {
     if (name == builtin.name) {
       builtin.generate(scene, builtin.size);
+      scene.z_up = true;
       return;
     }
     names += names.empty() ? "" : ", ";

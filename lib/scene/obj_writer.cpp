@@ -1,13 +1,14 @@
 // Writes a scene as OBJ and MTL, so that reading it gives the same triangles, windings, reflectance
 // and emission to the last bit. Floor 3 (scene).
 #include <algorithm>
-#include <charconv>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "machine/file_self.h"
 #include "scene/load.h"
 
@@ -15,12 +16,11 @@ namespace hrad {
 
 namespace {
 
-// The shortest decimal that reads as the same number.
-void append_number(std::string& text, double value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  text += ' ';
-  text.append(digits, static_cast<size_t>(end - digits));
+void append_numbers(std::string& line, std::initializer_list<double> values) {
+  for (const double value : values) {
+    line += ' ';
+    append_number(line, value);
+  }
 }
 
 // A word for newmtl and usemtl: no blanks, nothing that begins a comment or joins lines.
@@ -73,10 +73,16 @@ class MaterialTable {
     while (!taken_.insert(name).second) name = word + "-" + std::to_string(++repeated_[word] + 1);
     names_.push_back(name);
     mtl_ += "\nnewmtl " + name + "\nKd";
-    for (int i = 0; i < 3; ++i) append_number(mtl_, reflectance[scene_.bands == 3 ? i : 0]);
+    append_channels(reflectance);
     mtl_ += "\nKe";
-    for (int i = 0; i < 3; ++i) append_number(mtl_, emission[scene_.bands == 3 ? i : 0]);
+    append_channels(emission);
     mtl_ += '\n';
+  }
+
+  // One band stands for red, green and blue.
+  void append_channels(const std::vector<double>& values) {
+    append_numbers(
+        mtl_, {values[0], values[scene_.bands == 3 ? 1 : 0], values[scene_.bands == 3 ? 2 : 0]});
   }
 
   const Scene& scene_;
@@ -122,7 +128,7 @@ void write_obj(const Scene& scene, const std::string& path) {
   std::string line;
   for (const Vec3& v : scene.vertices) {
     line = "v";
-    for (int axis = 0; axis < 3; ++axis) append_number(line, v[axis]);
+    append_numbers(line, {v.x, v.y, v.z});
     obj.text(line + "\n");
   }
   MaterialTable materials(scene);

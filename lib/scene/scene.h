@@ -22,6 +22,7 @@ enum PatchFlags : uint8_t { patch_dropped = 1, patch_two_sided = 2, patch_blocke
 
 struct Scene {
   int bands = 3;
+  bool z_up = false;  // known to stand upright along z; nothing is known otherwise
   std::vector<Vec3> vertices;
   std::vector<Material> materials;
   // Per patch:

@@ -14,14 +14,14 @@ void export_scene(const Solver& solver, const std::string& path) {
 
 struct Format {
   const char* ending;
-  void (*write)(const Solver&, const std::string&);  // nullptr: not in this version
+  void (*write)(const Solver&, const std::string&);
 };
 
 constexpr Format formats[] = {{".csv", export_csv},
                               {".vtu", export_vtu},
-                              {".obj", export_scene},
-                              {".ply", nullptr},
-                              {".glb", nullptr}};
+                              {".ply", export_ply},
+                              {".glb", export_glb},
+                              {".obj", export_scene}};
 
 // From the last dot of the file's name on, in lower case; "" without a dot.
 std::string ending_of(const std::string& path) {
@@ -35,8 +35,7 @@ std::string ending_of(const std::string& path) {
 
 std::string writable_endings() {
   std::string list;
-  for (const Format& f : formats)
-    if (f.write) list += (list.empty() ? "" : ", ") + std::string(f.ending);
+  for (const Format& f : formats) list += (list.empty() ? "" : ", ") + std::string(f.ending);
   return list;
 }
 
@@ -46,9 +45,6 @@ void export_solution(const Solver& solver, const std::string& path) {
   const std::string ending = ending_of(path);
   for (const Format& f : formats) {
     if (ending != f.ending) continue;
-    if (!f.write)
-      fail(Status::unsupported, "%s: this version does not write %s; use one of %s", path.c_str(),
-           f.ending, writable_endings().c_str());
     f.write(solver, path);
     return;
   }

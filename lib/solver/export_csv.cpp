@@ -1,11 +1,8 @@
-// The solution as comma-separated values, one row per leaf and side. Numbers are written by
-// std::to_chars: the shortest form that reads back as the same double, whatever the locale.
-// Floor 8 (solver).
-#include <charconv>
+// The solution as comma-separated values, one row per leaf and side. Floor 8 (solver).
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "base/number_text.h"
 #include "machine/file_self.h"
 #include "solver/export.h"
 #include "solver/solver.h"
@@ -16,15 +13,9 @@ namespace {
 constexpr size_t chunk_bytes = size_t{1} << 18;  // rows are handed to the file in pieces this large
 
 template <class Number>
-void put(std::string& row, Number value) {
-  char text[32];  // the longest double takes 24 characters, the longest int64_t 20
-  row.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
-template <class Number>
 void put_next(std::string& row, Number value) {
   row += ',';
-  put(row, value);
+  append_number(row, value);
 }
 
 std::string heading(int bands) {
@@ -44,7 +35,7 @@ void export_csv(const Solver& solver, const std::string& path) {
   for (int64_t i = 0; i < leaves; ++i) {
     const LeafView leaf = solver.leaf(i);
     solver.leaf_values(i, Quantity::radiosity, radiosity.data());
-    put(rows, leaf.patch);
+    append_number(rows, leaf.patch);
     put_next(rows, leaf.face);
     put_next(rows, leaf.side);
     for (const Vec3& corner : {leaf.corners.a, leaf.corners.b, leaf.corners.c})

@@ -1,13 +1,12 @@
 // The solution as a VTK XML unstructured grid (version 1.0): a table of arrays, whose sizes are
 // known beforehand, so that the XML part with their offsets comes first and the arrays follow as
 // appended raw data, each led by its length as UInt64, little-endian. Floor 8 (solver).
-#include <cstring>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/little_endian.h"
 #include "machine/file_self.h"
 #include "solver/export.h"
 #include "solver/solver.h"
@@ -19,20 +18,8 @@ constexpr size_t chunk_bytes = size_t{1}
                                << 18;  // arrays are handed to the file in pieces this large
 constexpr uint8_t vtk_triangle = 5;    // cell type of a triangle
 
-// Appends the bytes of a number, the lowest first.
-template <class Number>
-void put(std::string& bytes, Number value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
-  bytes.append(std::reverse_iterator<char*>(raw + sizeof raw), std::reverse_iterator<char*>(raw));
-#else
-  bytes.append(raw, sizeof raw);
-#endif
-}
-
 void put_all(std::string& bytes, const std::vector<double>& values) {
-  for (const double value : values) put(bytes, value);
+  for (const double value : values) put_little_endian(bytes, value);
 }
 
 struct Array {
@@ -76,7 +63,7 @@ Array points(const Solver& solver) {
   return {"Points", "Points", "Float64", 3, 9 * 8, [&solver](int64_t i, std::string& bytes) {
             const Triangle corners = solver.leaf(i).corners;
             for (const Vec3& corner : {corners.a, corners.b, corners.c})
-              for (int axis = 0; axis < 3; ++axis) put(bytes, corner[axis]);
+              for (int axis = 0; axis < 3; ++axis) put_little_endian(bytes, corner[axis]);
           }};
 }
 
@@ -88,20 +75,22 @@ std::vector<Array> arrays_of(const Solver& solver) {
       means(solver, "irradiance", Quantity::irradiance),
       means(solver, "emission", Quantity::emission),
       {"CellData", "patch", "Int64", 1, 8,
-       [&solver](int64_t i, std::string& bytes) { put(bytes, solver.leaf(i).patch); }},
+       [&solver](int64_t i, std::string& bytes) {
+         put_little_endian(bytes, solver.leaf(i).patch);
+       }},
       {"CellData", "face", "Int64", 1, 8,
-       [&solver](int64_t i, std::string& bytes) { put(bytes, solver.leaf(i).face); }},
+       [&solver](int64_t i, std::string& bytes) { put_little_endian(bytes, solver.leaf(i).face); }},
       {"CellData", "side", "Int32", 1, 4,
-       [&solver](int64_t i, std::string& bytes) { put(bytes, solver.leaf(i).side); }},
+       [&solver](int64_t i, std::string& bytes) { put_little_endian(bytes, solver.leaf(i).side); }},
       points(solver),
       {"Cells", "connectivity", "Int64", 1, 3 * 8,
        [](int64_t i, std::string& bytes) {
-         for (int64_t corner = 0; corner < 3; ++corner) put(bytes, 3 * i + corner);
+         for (int64_t corner = 0; corner < 3; ++corner) put_little_endian(bytes, 3 * i + corner);
        }},
       {"Cells", "offsets", "Int64", 1, 8,
-       [](int64_t i, std::string& bytes) { put(bytes, 3 * (i + 1)); }},
+       [](int64_t i, std::string& bytes) { put_little_endian(bytes, 3 * (i + 1)); }},
       {"Cells", "types", "UInt8", 1, 1,
-       [](int64_t, std::string& bytes) { put(bytes, vtk_triangle); }},
+       [](int64_t, std::string& bytes) { put_little_endian(bytes, vtk_triangle); }},
   };
 }
 
@@ -139,7 +128,7 @@ void export_vtu(const Solver& solver, const std::string& path) {
   WholeFile file(path);
   std::string bytes = description(arrays, leaves);
   for (const Array& array : arrays) {
-    put(bytes, static_cast<uint64_t>(array.bytes_per_leaf * leaves));
+    put_little_endian(bytes, static_cast<uint64_t>(array.bytes_per_leaf * leaves));
     for (int64_t leaf = 0; leaf < leaves; ++leaf) {
       array.put_leaf(leaf, bytes);
       if (bytes.size() < chunk_bytes) continue;

@@ -218,6 +218,10 @@ void Solver::leaf_corner_radiosity(int64_t index, double* out) const {
           scene_.emission[patch + b] + scene_.reflectance[patch + b] * irradiance[c * scene_.bands + b];
 }
 
+std::array<int32_t, 3> Solver::leaf_corner_numbers(int64_t index) const {
+  return reconstruction().corner_numbers(solution_->leaves[index]);
+}
+
 void Solver::power_balance(double* emitted, double* absorbed, double* absorbed_back,
                            double* escaped) const {
   require_solved();

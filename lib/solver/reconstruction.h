@@ -22,6 +22,12 @@ class Reconstruction {
   // Irradiance at the three corners of a leaf, in the order of Forest::triangle: 3*bands values.
   void corners(NodeId leaf, double* out) const;
 
+  // The numbers of its corners: leaves of one plane that meet at a corner have the same number there,
+  // and the same irradiance.
+  const std::array<int32_t, 3>& corner_numbers(NodeId leaf) const {
+    return corner_[number_of_leaf_[leaf]];
+  }
+
   // Irradiance at the point (u,v) of the root triangle of the leaf's surface, inside that leaf.
   void at(NodeId leaf, double u, double v, double* out) const;
 

@@ -2,6 +2,7 @@
 // (paper, Fig. 1). Every entry of the C API is one method here. Floor 8 (solver).
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -84,6 +85,9 @@ class Solver {
   void leaf_values(int64_t index, Quantity quantity, double* out) const;  // means, bands values
   // Linear reconstruction of radiosity at the three corners of a leaf: 3*bands values.
   void leaf_corner_radiosity(int64_t index, double* out) const;
+  // Numbers that name these corners: leaves of one side of a patch that meet at a corner have the same
+  // number there, and the same radiosity unless one of them is sealed.
+  std::array<int32_t, 3> leaf_corner_numbers(int64_t index) const;
   void power_balance(double* emitted, double* absorbed, double* absorbed_back,
                      double* escaped) const;
 

@@ -1,16 +1,14 @@
 // Exports of a solved scene, read back: every number of .csv and .vtu is the solver's own, bit for
 // bit, and a refused export leaves nothing behind.
-#include <unistd.h>
-
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "export_room.h"
 #include "solver/export.h"
 #include "solver/solver.h"
 #include "support/check.h"
@@ -18,62 +16,11 @@
 namespace {
 
 using namespace hrad;
-namespace fs = std::filesystem;
-
-// A folder of its own for one test.
-class Folder {
- public:
-  Folder() : path_((fs::temp_directory_path() / "hrad-export-XXXXXX").string()) {
-    CHECK(mkdtemp(path_.data()) != nullptr);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  bool empty() const { return fs::is_empty(path_); }
-
- private:
-  std::string path_;
-};
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  CHECK(file.good());
-  std::ostringstream content;
-  content << file.rdbuf();
-  return content.str();
-}
-
-// A closed box of two bands with a two-sided panel in it: lit from the ceiling.
-void make_room(Solver& solver) {
-  solver.set_int("bands", 2);
-  solver.set_double("accuracy", 0.3);
-  Material wall{"wall", {0.5, 0.25}, {0, 0}, false, false};
-  Material lamp{"lamp", {0, 0}, {10, 3}, false, false};
-  Material panel{"panel", {0.7, 0.1}, {0, 0}, true, false};
-  for (const Material& m : {wall, lamp, panel}) solver.add_material(m);
-  const double xyz[] = {0,   0,   0,   3,   0,   0,   3,   2,   0,   0,   2,   0,
-                        0,   0,   2.5, 3,   0,   2.5, 3,   2,   2.5, 0,   2,   2.5,
-                        0.5, 0.5, 1,   1.5, 0.5, 1,   1.5, 1.5, 1.1, 0.5, 1.5, 1.1};
-  const int64_t corners[] = {0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6, 0, 5, 1, 0, 4, 5,  3, 2,  6,
-                             3, 6, 7, 0, 3, 7, 0, 7, 4, 1, 5, 6, 1, 6, 2, 8, 9, 10, 8, 10, 11};
-  const int32_t materials[] = {0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2};
-  solver.add_patches(12, xyz, 14, corners, materials);
-}
-
-// Solved once for all tests.
-const Solver& solved() {
-  static const std::unique_ptr<Solver> solver = [] {
-    auto s = std::make_unique<Solver>();
-    make_room(*s);
-    CHECK(static_cast<int>(s->solve()) >= 0);
-    return s;
-  }();
-  return *solver;
-}
-
-constexpr int bands = 2;
+using hrad_test::bands;
+using hrad_test::Folder;
+using hrad_test::make_room;
+using hrad_test::read_file;
+using hrad_test::solved;
 
 // ---- .csv
 
@@ -246,12 +193,15 @@ void refused_exports_leave_nothing() {
   make_room(solver);
   CHECK_FAILS(export_solution(solver, folder / "a.csv"), Status::state, "solve");
   CHECK_FAILS(export_solution(solver, folder / "a.vtu"), Status::state, "solve");
-  CHECK_FAILS(export_solution(solved(), folder / "a.ply"), Status::unsupported, ".ply");
-  CHECK_FAILS(export_solution(solved(), folder / "a.GLB"), Status::unsupported, ".glb");
-  CHECK_FAILS(export_solution(solved(), folder / "a.png"), Status::argument, ".csv, .vtu, .obj");
-  CHECK_FAILS(export_solution(solved(), folder / "a"), Status::argument, ".csv, .vtu, .obj");
-  CHECK_FAILS(export_solution(solved(), folder / "csv"), Status::argument, ".csv, .vtu, .obj");
-  CHECK_FAILS(export_solution(solved(), ""), Status::argument, ".csv, .vtu, .obj");
+  CHECK_FAILS(export_solution(solver, folder / "a.ply"), Status::state, "solve");
+  CHECK_FAILS(export_solution(solver, folder / "a.GLB"), Status::state, "solve");
+  CHECK_FAILS(export_solution(solved(), folder / "a.png"), Status::argument,
+              ".csv, .vtu, .ply, .glb, .obj");
+  CHECK_FAILS(export_solution(solved(), folder / "a"), Status::argument,
+              ".csv, .vtu, .ply, .glb, .obj");
+  CHECK_FAILS(export_solution(solved(), folder / "csv"), Status::argument,
+              ".csv, .vtu, .ply, .glb, .obj");
+  CHECK_FAILS(export_solution(solved(), ""), Status::argument, ".csv, .vtu, .ply, .glb, .obj");
   CHECK(folder.empty());
   CHECK_FAILS(export_solution(solved(), folder / "none/a.csv"), Status::file, "none/a.csv");
   CHECK_FAILS(export_solution(solved(), folder / "none.csv/a"), Status::argument, ".csv, .vtu");
