@@ -215,7 +215,8 @@ HRAD_API hrad_status hrad_add_patches(hrad_solver *solver, int64_t n_vertices, c
                                       const int32_t *material);
 
 /* [C] Loads an OBJ file with its MTL files (Kd reflectance, Ke emission; no material: Kd 0.5, Ke 0;
- * textures are ignored, counted and warned about). Only rank 0 opens files. Parameter `sides` says how
+ * textures are ignored, counted and warned about; the comments "# hrad: two-sided" and "# hrad: blocker"
+ * in a material's definition set its flags). Only rank 0 opens files. Parameter `sides` says how
  * windings are read (front | two-sided | flip). Needs bands = 1 or 3 (1: the mean of the three
  * channels). Adds to what is there. Errors: FILE; SCENE with file:line; STATE after hrad_partition;
  * MEMORY. Nothing is added then. */

@@ -9,8 +9,8 @@ namespace hrad {
 
 enum class Sides { front, two_sided, flip };
 
-// Adds the patches of an OBJ file and the materials of its MTL files (Kd, Ke) to the scene; nothing
-// when it throws (FILE, or SCENE with file:line). Doubtful input goes to scene.diagnostics.
+// Adds the patches of an OBJ file and the materials of its MTL files (Kd, Ke, and the marks that
+// write_obj makes: two-sided, blocker, z-up) to the scene; nothing when it throws (FILE, or SCENE with file:line). Doubtful input goes to scene.diagnostics.
 void load_obj(Scene& scene, const std::string& path, Sides sides);
 
 // Fills an empty scene. ARGUMENT, listing all names, for an unknown one.

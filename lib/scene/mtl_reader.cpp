@@ -15,6 +15,23 @@ void note(int64_t& count, std::string& first, const ObjLexer& lexer) {
   if (count++ == 0) first = lexer.here();
 }
 
+void refuse_shining_blocker(const MtlMaterial& material, const ObjLexer& lexer) {
+  for (const double value : material.emission)
+    if (material.blocker && value > 0)
+      lexer.fail_here("material " + quoted(material.name) + " is a blocker and can't emit");
+}
+
+void read_mark(MtlMaterial& material, const ObjLexer& lexer) {
+  if (lexer.rest() == "two-sided")
+    material.two_sided = true;
+  else if (lexer.rest() == "blocker")
+    material.blocker = true;
+  else
+    lexer.fail_here("the mark " + quoted(lexer.rest()) +
+                    " is unknown: a material can be two-sided or blocker");
+  refuse_shining_blocker(material, lexer);
+}
+
 // The one or three numbers of Kd or Ke.
 std::array<double, 3> color(ObjLexer& lexer) {
   const std::string name(lexer.keyword());
@@ -59,11 +76,15 @@ void read_mtl(const std::string& path, std::string_view text, MtlLibrary& librar
         note(library.repeated, library.first_repeated, lexer);
         current = &ignored;
       }
+    } else if (keyword == own_mark) {
+      if (!current) lexer.fail_here("a mark before the first newmtl");
+      read_mark(*current, lexer);
     } else if (keyword == "Kd" || keyword == "Ke") {
       if (!current) lexer.fail_here(std::string(keyword) + " before the first newmtl");
       std::array<double, 3> values = color(lexer);
       if (keyword == "Ke") {
         current->emission = values;
+        refuse_shining_blocker(*current, lexer);
         continue;
       }
       for (double& value : values)

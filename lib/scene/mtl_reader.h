@@ -1,4 +1,5 @@
-// Materials of MTL files: Kd (reflectance) and Ke (emission). Floor 3 (scene).
+// Materials of MTL files: Kd (reflectance), Ke (emission), and the marks "# hrad: two-sided" and
+// "# hrad: blocker", for which MTL has no statement. Floor 3 (scene).
 #pragma once
 
 #include <array>
@@ -14,6 +15,7 @@ struct MtlMaterial {
   std::string name;
   std::array<double, 3> reflectance{0.5, 0.5, 0.5}, emission{0, 0, 0};
   bool has_reflectance = false;
+  bool two_sided = false, blocker = false;  // marked so
 };
 
 // What all MTL files of a scene define together.

@@ -81,6 +81,10 @@ class Parser {
       ++normal_.count;
     } else if (keyword == "usemtl") {
       use_material();
+    } else if (keyword == own_mark) {
+      if (lexer_.rest() != "z-up")
+        lexer_.fail_here("the mark " + quoted(lexer_.rest()) + " is unknown: here it can be z-up");
+      content_.z_up = true;
     } else if (keyword == "mtllib") {
       if (lexer_.rest().empty()) lexer_.fail_here("mtllib without a name");
       content_.libraries.push_back({lexer_.line(), std::string(lexer_.rest())});

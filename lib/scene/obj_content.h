@@ -26,6 +26,7 @@ struct ObjContent {
   std::vector<std::string> material_names;  // of usemtl, in order of first use
   std::vector<int64_t> material_line;       // of the first usemtl of each
   std::vector<Library> libraries;
+  bool z_up = false;  // marked so
   // What was repaired or ignored, with the first line of each.
   int64_t repeated_corners = 0, first_repeated_corner = 0;
   struct Count {

@@ -96,6 +96,11 @@ bool ObjLexer::next() {
   while (position_ < text_.size()) {
     std::string_view statement = physical_line();
     line_ = lines_read_;
+    if (statement.substr(0, own_mark.size()) == own_mark) {
+      keyword_ = own_mark;
+      rest_ = trimmed(statement.substr(own_mark.size()));
+      return true;
+    }
     size_t comment = comment_start(statement);
     if (comment != std::string_view::npos) {
       statement = statement.substr(0, comment);

@@ -9,9 +9,13 @@
 
 namespace hrad {
 
+// Begins what OBJ and MTL can't say otherwise.
+constexpr std::string_view own_mark = "# hrad:";
+
 // Lines end with LF, CR LF or CR; a backslash at a line's end joins the next one. A comment begins
 // with # at the start of a word and ends with its line, whatever that ends with. A byte-order mark
-// is skipped. Nothing depends on the locale.
+// is skipped. Nothing depends on the locale. A line that begins with own_mark is a statement with
+// this keyword: what other programs skip as a comment.
 class ObjLexer {
  public:
   // path: for messages. The text must outlive the lexer. SCENE when it isn't text.

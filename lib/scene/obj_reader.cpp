@@ -38,6 +38,7 @@ class Reader {
     for (const ObjContent::Library& library : content_.libraries) read_library(library);
     add_materials();
     made_.vertices = std::move(content_.vertices);
+    made_.z_up = content_.z_up;
     add_faces();
     describe();
     return std::move(made_);
@@ -110,7 +111,8 @@ class Reader {
       material.name = m.name;
       material.reflectance = in_bands(m.reflectance);
       material.emission = in_bands(m.emission);
-      material.two_sided = sides_ == Sides::two_sided;
+      material.two_sided = m.two_sided || (sides_ == Sides::two_sided && !m.blocker);
+      material.blocker = m.blocker;
       made_.add_material(std::move(material));
     }
     for (size_t i = 0; i < content_.material_names.size(); ++i) {
@@ -255,10 +257,7 @@ void append_scene(Scene& scene, Scene made) {
   append(scene.emission, made.emission);
   append(scene.reflectance, made.reflectance);
   append(scene.diagnostics, made.diagnostics);
-}
-
-bool emits(const Scene& scene) {
-  return std::any_of(scene.emission.begin(), scene.emission.end(), [](double e) { return e > 0; });
+  scene.z_up = scene.z_up || made.z_up;
 }
 
 }  // namespace
@@ -269,10 +268,7 @@ void load_obj(Scene& scene, const std::string& path, Sides sides) {
          "%s: an OBJ file has red, green and blue: it needs bands = 3, or bands = 1 for their "
          "mean, not %d",
          path.c_str(), scene.bands);
-  Scene made = Reader(path, scene.bands, sides).read();
-  if (!emits(scene) && !emits(made))
-    made.diagnostics.push_back(path + ": no emitter: the scene is dark");
-  append_scene(scene, std::move(made));
+  append_scene(scene, Reader(path, scene.bands, sides).read());
 }
 
 }  // namespace hrad

@@ -1,5 +1,6 @@
-// Writes a scene as OBJ and MTL, so that reading it gives the same triangles, windings, reflectance
-// and emission to the last bit. Floor 3 (scene).
+// Writes a scene as OBJ and MTL, so that reading it gives the same triangles, windings,
+// reflectance, emission and sides to the last bit; what the formats have no statement for stands in
+// comments that the reader knows. Floor 3 (scene).
 #include <algorithm>
 #include <initializer_list>
 #include <map>
@@ -11,6 +12,7 @@
 #include "base/number_text.h"
 #include "machine/file_self.h"
 #include "scene/load.h"
+#include "scene/obj_lexer.h"
 
 namespace hrad {
 
@@ -22,6 +24,8 @@ void append_numbers(std::string& line, std::initializer_list<double> values) {
     append_number(line, value);
   }
 }
+
+std::string mark(const char* meaning) { return std::string(own_mark) + " " + meaning + "\n"; }
 
 // A word for newmtl and usemtl: no blanks, nothing that begins a comment or joins lines.
 std::string as_word(const std::string& name) {
@@ -38,7 +42,7 @@ std::string as_word(const std::string& name) {
 class MaterialTable {
  public:
   explicit MaterialTable(const Scene& scene) : scene_(scene) {
-    for (const Material& m : scene.materials) add(m.name, m.reflectance, m.emission);
+    for (const Material& m : scene.materials) add(m, m.name, m.reflectance, m.emission);
   }
 
   // The number of a patch's material in the file.
@@ -56,7 +60,7 @@ class MaterialTable {
     const auto [found, added] = apart_.emplace(std::make_pair(number, std::move(values)), 0);
     if (added) {
       found->second = names_.size();
-      add(m.name + "-apart", {reflectance, reflectance + bands}, {emission, emission + bands});
+      add(m, m.name + "-apart", {reflectance, reflectance + bands}, {emission, emission + bands});
     }
     return found->second;
   }
@@ -65,7 +69,8 @@ class MaterialTable {
   const std::string& mtl() const { return mtl_; }
 
  private:
-  void add(const std::string& wanted, const std::vector<double>& reflectance,
+  // like: whose sides it has.
+  void add(const Material& like, const std::string& wanted, const std::vector<double>& reflectance,
            const std::vector<double>& emission) {
     const std::string word = as_word(wanted);
     std::string name = word;
@@ -77,6 +82,8 @@ class MaterialTable {
     mtl_ += "\nKe";
     append_channels(emission);
     mtl_ += '\n';
+    if (like.two_sided) mtl_ += mark("two-sided");
+    if (like.blocker) mtl_ += mark("blocker");
   }
 
   // One band stands for red, green and blue.
@@ -124,6 +131,7 @@ void write_obj(const Scene& scene, const std::string& path) {
   const std::string library = library_name(mtl_path);
   WholeFile obj(path), mtl(mtl_path);
 
+  if (scene.z_up) obj.text(mark("z-up"));
   obj.text("mtllib " + library + "\n");
   std::string line;
   for (const Vec3& v : scene.vertices) {

@@ -99,6 +99,8 @@ void check_patch_range(const Scene& scene, int64_t first, int64_t count) {
          static_cast<long long>(patches));
 }
 
+constexpr const char* no_emitter = "no emitter: no patch emits and the solution is 0 everywhere";
+
 bool emits(const Scene& scene) {
   const auto bands = static_cast<size_t>(scene.bands);
   for (int64_t patch = 0; patch < scene.patch_count(); ++patch) {
@@ -208,6 +210,7 @@ void Solver::load_scene(const std::string& path) {
   load_obj(scene_, path, sides);
   check_patches(scene_, addition.first_patch());
   warn(log_, scene_, diagnostics);
+  if (scene_.patch_count() > 0 && !emits(scene_)) log_.write(Log::warning, no_emitter);
   addition.keep();
 }
 
@@ -255,7 +258,7 @@ void Solver::set_reflectance(int64_t first, int64_t count, const double* values)
 std::vector<std::string> Solver::diagnostics() const {
   std::vector<std::string> all = scene_.diagnostics;
   if (scene_.patch_count() > 0 && !emits(scene_))
-    all.push_back("no patch emits: the solution is 0 everywhere");
+    all.push_back(no_emitter);
   if (solved() && stats_.back_share > kDoubtfulBackShare)
     all.push_back(format(
         "%.1f %% of the rays that measured met the backs of one-sided patches: if these are the "

@@ -117,10 +117,38 @@ static void files_are_loaded(void** state) {
   assert_int_equal(remove(obj_path) | remove(mtl_path) | remove(bad_path) | rmdir(folder), 0);
 }
 
+static void count_warning(int32_t level, const char* message, void* user) {
+  if (level == HRAD_LOG_WARNING && strstr(message, "no emitter")) ++*(int*)user;
+}
+
+/* A scene without light is told of once: in the log when it is loaded, in the diagnostics as long as
+ * it is dark. */
+static void a_dark_scene_is_told_of_once(void** state) {
+  const double light[3] = {1, 1, 1};
+  char folder[512], path[600], text[512];
+  int warnings = 0, diagnostics = 0;
+  hrad_solver* solver = new_solver();
+  (void)state;
+  make_folder(folder, sizeof folder);
+  write_file(folder, "plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", path, sizeof path);
+  assert_ok(hrad_set_log(solver, count_warning, &warnings, HRAD_LOG_DEBUG));
+  assert_ok(hrad_load_scene(solver, path));
+  assert_int_equal(warnings, 1);
+  for (int64_t i = 0; hrad_get_diagnostic(solver, i, text, sizeof text, NULL) == HRAD_OK; ++i)
+    diagnostics += strstr(text, "emit") || strstr(text, "dark");
+  assert_int_equal(diagnostics, 1);
+  assert_ok(hrad_set_emission(solver, 0, 1, light));
+  for (int64_t i = 0; hrad_get_diagnostic(solver, i, text, sizeof text, NULL) == HRAD_OK; ++i)
+    assert_null(strstr(text, "emit"));
+  hrad_destroy(&solver);
+  assert_int_equal(remove(path) | rmdir(folder), 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(builtin_scenes_are_made),
       cmocka_unit_test(files_are_loaded),
+      cmocka_unit_test(a_dark_scene_is_told_of_once),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -193,6 +193,11 @@ class Meshes(unittest.TestCase):
         for found, wanted in zip(up, (0, 1, 0)):
             self.assertAlmostEqual(found, wanted, places=12)
 
+    def test_glb_of_a_written_scene_is_the_same(self):
+        hrad("scene", SCENE[0], "-o", self.path("again.obj"))
+        hrad("export", self.path("again.obj"), *SCENE[1:], "--quiet", "-o", self.path("again.glb"))
+        self.assertEqual(content_of(self.path("again.glb")), self.glb)
+
     def test_patch_means_are_those_of_a_query(self):
         queried = json.loads(hrad("query", *SCENE, "--quiet", "--patches", "--json").stdout)
         means = {(p["patch"], p["side"]): p["values"] for p in queried["patches"]}

@@ -36,7 +36,7 @@ refuses 2 "write over the input" solve ./scene.csv -o scene.csv
 refuses 2 "write over the input" export ./scene.csv -o other.csv
 cmp -s scene.csv before || complain "the input was changed"
 
-# A built-in scene survives the way through its file, but for what OBJ can't say (two sides).
+# A built-in scene survives the way through its file.
 for name in $("$HRAD" scene --list | grep -v -- -x); do
   works scene "$name" -o written.obj
   [ -s out ] && complain "$ran: output on stdout"
@@ -46,7 +46,7 @@ for name in $("$HRAD" scene --list | grep -v -- -x); do
   python3 - <<'PYTHON' || complain "$name: its file holds another scene"
 import json
 a, b = json.load(open("direct")), json.load(open("out"))
-for key in "patches", "dropped", "emitters":
+for key in "patches", "dropped", "emitters", "two_sided":
     assert a[key] == b[key], (key, a[key], b[key])
 assert abs(a["area"] - b["area"]) <= 1e-9 * a["area"]
 for key in "lower", "upper":

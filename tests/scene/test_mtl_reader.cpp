@@ -53,6 +53,15 @@ void textures_are_counted() {
   CHECK(l.first_texture == "a.mtl:2");
 }
 
+void marks_are_read() {
+  const MtlLibrary l = read(
+      "newmtl a\nKd .5\n# hrad: two-sided\n# hrad:  blocker\nnewmtl b\nKe 2\n# hrad:two-sided\n"
+      "newmtl a\n# hrad: two-sided\nnewmtl c\n## hrad: blocker\n");
+  CHECK(l.materials[0].two_sided && l.materials[0].blocker);
+  CHECK(l.materials[1].two_sided && !l.materials[1].blocker);
+  CHECK(!l.materials[2].two_sided && !l.materials[2].blocker);
+}
+
 void the_first_definition_counts() {
   MtlLibrary l = read("newmtl a\nKd .1\nnewmtl a\nKd .2\nKe 3\nnewmtl b\nKd .3\n");
   CHECK_EQUAL(l.materials.size(), size_t{2});
@@ -67,6 +76,11 @@ void the_first_definition_counts() {
 }
 
 void refused() {
+  check_error("# hrad: two-sided\nnewmtl a\n", "a.mtl:1: a mark before the first newmtl");
+  check_error("newmtl a\n# hrad: twosided\n", "a.mtl:2: the mark 'twosided' is unknown");
+  check_error("newmtl a\n# hrad:\n", "a.mtl:2: the mark '' is unknown");
+  check_error("newmtl a\n# hrad: blocker\nKe 0 1 0\n", "a.mtl:3: material 'a' is a blocker");
+  check_error("newmtl a\nKe 1\n# hrad: blocker\n", "a.mtl:3: material 'a' is a blocker");
   check_error("newmtl a\nKd spectral wall.rfl 1\n", "a.mtl:2: Kd spectral is not supported");
   check_error("newmtl a\nKe xyz 1 1 1\n", "a.mtl:2: Ke xyz is not supported");
   check_error("newmtl a\nKd .1 .2\n", "a.mtl:2: Kd needs one or three numbers, not 2");
@@ -95,6 +109,7 @@ int main() {
       HRAD_TEST(reflectance_and_emission),
       HRAD_TEST(too_bright_reflectance_is_clamped),
       HRAD_TEST(textures_are_counted),
+      HRAD_TEST(marks_are_read),
       HRAD_TEST(the_first_definition_counts),
       HRAD_TEST(refused),
       HRAD_TEST(minus_zero_is_zero),

@@ -17,7 +17,7 @@ namespace {
 
 double random_number(uint64_t i) { return hrad::unit_interval(hrad::mix(5, i)); }
 
-// Triangles of random corners and materials, and some set apart.
+// Triangles of random corners and materials, and some set apart; sheets and blockers.
 Scene random_scene(int bands) {
   Scene s;
   s.bands = bands;
@@ -30,14 +30,22 @@ Scene random_scene(int bands) {
       m.reflectance.push_back(random_number(++n) * 0.9999);
       m.emission.push_back(n % 3 ? 0 : random_number(n) * 1e5);
     }
+    m.two_sided = s.materials.size() % 3 == 1;
     s.add_material(m);
   }
+  hrad::Material blocker;
+  blocker.name = "blocker";
+  blocker.reflectance.assign(bands, 0.25);
+  blocker.blocker = true;
+  s.add_material(blocker);
+  s.z_up = true;
   s.materials[1].reflectance[0] = 0.9999999999999999;
   for (int i = 0; i < 60; ++i)
     s.add_vertex({random_number(++n) * 1e-7, random_number(++n) - 0.5, random_number(++n) * 1e9});
   for (int i = 0; i < 300; ++i)
     s.add_patch(hrad::mix(1, i) % 60, hrad::mix(2, i) % 60, hrad::mix(3, i) % 60,
                 hrad::mix(4, i) % 8);
+  for (int i = 0; i < 4; ++i) s.add_patch(i, i + 1, i + 2, 8);
   for (int i = 10; i < 40; ++i) {
     s.emission[i * bands] = i < 20 ? 5 : random_number(++n);
     s.reflectance[(i + 10) * bands] = 0.123456789012345678;
@@ -54,6 +62,8 @@ void check_same(const Scene& s, const Scene& t) {
     }
     CHECK_EQUAL(t.face[i], i);
   }
+  CHECK(s.flags == t.flags);
+  CHECK_EQUAL(s.z_up, t.z_up);
   CHECK(s.emission == t.emission);
   CHECK(s.reflectance == t.reflectance);
 }
@@ -93,6 +103,20 @@ void names_are_words_and_unlike() {
   }
 }
 
+// What the formats can't say stands in comments, which other programs skip.
+void marks_are_comments() {
+  SceneFolder folder;
+  Scene s = random_scene(3);
+  hrad::write_obj(s, folder.file("a.obj"));
+  CHECK(folder.content("a.obj").rfind("# hrad: z-up\n", 0) == 0);
+  const std::string mtl = folder.content("a.mtl");
+  CHECK(mtl.find("\n# hrad: two-sided\n") != std::string::npos);
+  CHECK(mtl.find("\n# hrad: blocker\n") != std::string::npos);
+  s.z_up = false;
+  hrad::write_obj(s, folder.file("a.obj"));
+  CHECK(folder.content("a.obj").find('#') == std::string::npos);
+}
+
 void what_cannot_be_written() {
   SceneFolder folder;
   Scene s = random_scene(3);
@@ -130,6 +154,7 @@ int main() {
       HRAD_TEST(three_bands),
       HRAD_TEST(one_band),
       HRAD_TEST(names_are_words_and_unlike),
+      HRAD_TEST(marks_are_comments),
       HRAD_TEST(what_cannot_be_written),
       HRAD_TEST(a_failed_write_leaves_the_old_files),
   };

@@ -187,6 +187,32 @@ void obj_needs_no_solve() {
   CHECK_EQUAL(again.scene().patch_count(), solver.scene().patch_count());
 }
 
+// A scene read back from its file is solved to the same bits: sheets, blockers and all.
+void an_exported_scene_has_the_same_hash() {
+  Folder folder;
+  uint64_t hash[2];
+  for (int k = 0; k < 2; ++k) {
+    Solver solver;
+    solver.set_double("accuracy", 0.3);
+    if (k == 0) {
+      solver.add_material({"lamp", {0.5, 0.5, 0.5}, {9, 5, 1}, false, false});
+      solver.add_material({"sheet", {0.7, 0.4, 0.1}, {0, 0, 0}, true, false});
+      solver.add_material({"blocker", {}, {}, false, true});
+      const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1,   0, 0, 1, 0,
+                            0, 0, 1, 0, 1, 1, 1, 0.1, 1, 1, 1, 0.3};
+      const int64_t corners[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 0, 6, 7};
+      const int32_t materials[] = {0, 0, 1, 1, 2};
+      solver.add_patches(8, xyz, 5, corners, materials);
+      solver.export_file(folder / "room.obj");
+    } else {
+      solver.load_scene(folder / "room.obj");
+    }
+    CHECK(static_cast<int>(solver.solve()) >= 0);
+    hash[k] = solver.state_hash();
+  }
+  CHECK_EQUAL(hash[0], hash[1]);
+}
+
 void refused_exports_leave_nothing() {
   Folder folder;
   Solver solver;
@@ -226,6 +252,7 @@ int main() {
       HRAD_TEST(vtu_holds_the_mesh),
       HRAD_TEST(vtu_holds_means_and_corner_values),
       HRAD_TEST(obj_needs_no_solve),
+      HRAD_TEST(an_exported_scene_has_the_same_hash),
       HRAD_TEST(refused_exports_leave_nothing),
       HRAD_TEST(an_export_replaces_the_old_file),
   };
