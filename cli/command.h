@@ -21,6 +21,7 @@ struct Command {
 
 int run_solve(const std::vector<std::string>& arguments, Output* output);
 int run_export(const std::vector<std::string>& arguments, Output* output);
+int run_render(const std::vector<std::string>& arguments, Output* output);
 int run_query(const std::vector<std::string>& arguments, Output* output);
 int run_info(const std::vector<std::string>& arguments, Output* output);
 int run_scene(const std::vector<std::string>& arguments, Output* output);
@@ -30,12 +31,12 @@ int run_params(const std::vector<std::string>& arguments, Output* output);
 inline constexpr Command commands[] = {
     {"solve", "Solve a scene, print a summary, write the result", run_solve},
     {"export", "Solve a scene and write the result, without a summary", run_export},
+    {"render", "Solve a scene and write a picture of it", run_render},
     {"query", "Solve a scene and print values at patches, points or grids", run_query},
     {"info", "Print what is in a scene, without solving it", run_info},
     {"scene", "Write a built-in scene as an OBJ file, or list their names", run_scene},
     {"machine", "Print what is seen of this machine, and the threads started here", run_machine},
     {"params", "Print the table of parameters", run_params},
-    {"render", "", nullptr},
     {"check", "", nullptr},
     {"partition", "", nullptr},
 };

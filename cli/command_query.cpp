@@ -1,10 +1,10 @@
 // hrad query. CLI: public headers only.
 #include <algorithm>
-#include <iterator>
 
 #include "command.h"
 #include "json.h"
 #include "numbers.h"
+#include "quantity.h"
 #include "run_options.h"
 #include "sensors.h"
 #include "session.h"
@@ -14,21 +14,11 @@
 namespace hrad::cli {
 namespace {
 
-struct Quantity {
-  const char* name;
-  int32_t number;
-};
-
-constexpr Quantity quantities[] = {{"radiosity", HRAD_RADIOSITY},
-                                   {"irradiance", HRAD_IRRADIANCE},
-                                   {"emission", HRAD_EMISSION},
-                                   {"net_flux", HRAD_NET_FLUX}};
-
 struct Request {
   bool patches = false, as_json = false, as_csv = false;
   std::vector<std::string> at, sensor_files, grids;
   std::optional<std::string> quantity_name;
-  Quantity quantity = quantities[0];
+  Quantity quantity;
   Sensors sensors;
 
   bool asks_for_sensors() const { return !at.empty() || !sensor_files.empty() || !grids.empty(); }
@@ -59,15 +49,7 @@ constexpr const char* notes =
     "Example: hrad query furnace --grid 0,0.5,0:1,0.5,1:8x8 --json";
 
 void resolve(Request* request) {
-  if (request->quantity_name) {
-    const auto found =
-        std::find_if(std::begin(quantities), std::end(quantities),
-                     [&](const Quantity& q) { return q.name == *request->quantity_name; });
-    if (found == std::end(quantities))
-      fail_usage("query", "--quantity takes radiosity, irradiance, emission or net_flux, not '" +
-                              *request->quantity_name + "'");
-    request->quantity = *found;
-  }
+  if (request->quantity_name) request->quantity = read_quantity(*request->quantity_name, "query");
   if (!request->asks_for_sensors()) request->patches = true;
   if (request->patches && request->asks_for_sensors() && !request->as_json)
     fail_usage("query", "patches and points are two tables: ask for one, or for --json");

@@ -1,7 +1,7 @@
 # Completion of hrad for bash: commands, their options, parameter names and the words they take.
 # A test compares the lists with `hrad --help`, `hrad COMMAND --help` and `hrad params`.
 
-_hrad_commands='solve export query info scene machine params'
+_hrad_commands='solve export render query info scene machine params'
 _hrad_run_options='--help --accuracy --threads --set --two-sided --flip --mpi --quiet --verbose'
 _hrad_params='bands accuracy linking oracle bf_epsilon min_area tolerance max_iterations refine seed
   unit visibility sides threads smt bind partition max_memory instruction_set'
@@ -10,8 +10,11 @@ _hrad_options() {  # of a command
   case $1 in
     solve) echo "$_hrad_run_options --output --json" ;;
     export) echo "$_hrad_run_options --output" ;;
+    render)
+      echo "$_hrad_run_options --output --size --eye --look --up --fov --exposure --false-colour" \
+        "--quantity --range --mesh --json" ;;
     query)
-      echo "$_hrad_run_options --patches --at --sensors --grid --quantity --json --csv" ;;
+      echo "$_hrad_run_options --patches --at --sensors --grid --quantity --output --json --csv" ;;
     info | machine) echo "$_hrad_run_options --json" ;;
     scene) echo '--help --output --list' ;;
     params) echo '--help --json' ;;
@@ -49,21 +52,22 @@ _hrad() {
     --quantity) _hrad_words 'radiosity irradiance emission net_flux' "$word"; return ;;
     --sensors) mapfile -t COMPREPLY < <(compgen -f -- "$word"); return ;;
     -o | --output)
-      if [[ $command == scene ]]; then
-        _hrad_files 'obj' "$word"
-      else
-        _hrad_files 'csv|vtu|ply|glb' "$word"
-      fi
+      case $command in
+        scene) _hrad_files 'obj' "$word" ;;
+        render | query) _hrad_files 'png' "$word" ;;
+        *) _hrad_files 'csv|vtu|ply|glb|png' "$word" ;;
+      esac
       return
       ;;
-    --accuracy | --threads | --at | --grid) return ;;
+    --accuracy | --threads | --at | --grid | --size | --eye | --look | --up | --fov | --exposure | \
+      --range) return ;;
   esac
   if [[ $word == -* ]]; then
     _hrad_words "$(_hrad_options "$command")" "$word"
     return
   fi
   case $command in
-    solve | export | query | info)
+    solve | export | render | query | info)
       _hrad_files 'obj' "$word"
       local files=("${COMPREPLY[@]}")
       _hrad_words "$(hrad scene --list 2>/dev/null)" "$word"

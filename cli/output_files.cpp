@@ -9,6 +9,8 @@
 #include <cstring>
 
 #include "exit_code.h"
+#include "render/picture.h"
+#include "render/png_file.h"
 #include "signals.h"
 
 namespace hrad::cli {
@@ -23,8 +25,15 @@ struct Format {
 constexpr Format formats[] = {
     {".csv", OutputFiles::results, true},   {".vtu", OutputFiles::results, true},
     {".ply", OutputFiles::results, true},   {".glb", OutputFiles::results, true},
+    {".png", OutputFiles::results, true},   {".png", OutputFiles::pictures, true},
     {".hrad", OutputFiles::results, false}, {".obj", OutputFiles::scenes, true},
 };
+
+const char* content_of(OutputFiles::Kind kind) {
+  return kind == OutputFiles::scenes     ? "a scene"
+         : kind == OutputFiles::pictures ? "a picture"
+                                         : "a result";
+}
 
 std::string name_of(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);  // npos + 1 is 0
@@ -42,6 +51,8 @@ std::string ending_of(const std::string& path) {
   return dot == std::string::npos ? "" : name.substr(dot);
 }
 
+bool is_picture(const std::string& path) { return ending_of(path) == ".png"; }
+
 std::string known_endings(OutputFiles::Kind kind) {
   std::string endings;
   for (const Format& format : formats)
@@ -53,23 +64,23 @@ std::string known_endings(OutputFiles::Kind kind) {
 void check_ending(const std::string& path, OutputFiles::Kind kind) {
   const std::string ending = ending_of(path);
   const std::string hint = "endings known here: " + known_endings(kind);
-  for (const Format& format : formats) {
-    if (ending != format.ending) continue;
-    if (format.kind != kind)
-      throw Failure(exit_usage,
-                    "-o " + path + ": a " + ending + " file holds " +
-                        (format.kind == OutputFiles::scenes ? "a scene, not a result"
-                                                            : "a result, not a scene"),
-                    hint);
-    if (!format.in_this_version)
-      throw Failure(exit_usage, "-o " + path + ": this version doesn't write " + ending + " files",
-                    hint);
-    return;
-  }
-  throw Failure(exit_usage,
-                "-o " + path + ": " +
-                    (ending.empty() ? "no ending tells the format" : "unknown ending " + ending),
-                hint);
+  const Format* known = nullptr;  // the ending's row for this kind, or for another one
+  for (const Format& format : formats)
+    if (ending == format.ending && (known == nullptr || format.kind == kind)) known = &format;
+  if (known == nullptr)
+    throw Failure(exit_usage,
+                  "-o " + path + ": " +
+                      (ending.empty() ? "no ending tells the format" : "unknown ending " + ending),
+                  hint);
+  if (known->kind != kind)
+    throw Failure(exit_usage,
+                  "-o " + path + ": a " + ending + " file holds " + content_of(known->kind) +
+                      ", not " + content_of(kind),
+                  hint);
+  if (!known->in_this_version)
+    throw Failure(exit_usage, "-o " + path + ": this version doesn't write " + ending + " files",
+                  hint);
+  if (is_picture(path)) require_png(path);
 }
 
 [[noreturn]] void fail_to_write(const std::string& path, const std::string& reason) {
@@ -129,7 +140,10 @@ void OutputFiles::check(const std::string& input_file) const {
 double OutputFiles::write(Session* session) const {
   const auto start = std::chrono::steady_clock::now();
   for (const std::string& path : paths_) {
-    hrad::cli::check(hrad_export(session->solver(), path.c_str()));
+    if (is_picture(path))
+      write_png(make_automatic_picture(session), path);
+    else
+      hrad::cli::check(hrad_export(session->solver(), path.c_str()));
     signals::check();
   }
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -12,8 +12,8 @@ namespace hrad::cli {
 
 class OutputFiles {
  public:
-  // A kind of file is known by its ending.
-  enum Kind { results, scenes };
+  // A kind of file is known by its ending; a picture is also one form of a result.
+  enum Kind { results, scenes, pictures };
 
   explicit OutputFiles(Kind kind) : kind_(kind) {}
   void add_to(Arguments* arguments, const std::string& command);
@@ -21,7 +21,8 @@ class OutputFiles {
   // Failure (usage) for an unknown ending, a name given twice or the input's own; Failure
   // (input/output) where it can be seen that writing would fail.
   void check(const std::string& input_file) const;
-  // Writes all files, each whole or not at all, and returns the seconds it took.
+  // Writes all files of results or scenes, each whole or not at all, and returns the seconds it
+  // took. Pictures among them are from the automatic camera.
   double write(Session* session) const;
 
   const std::vector<std::string>& paths() const { return paths_; }

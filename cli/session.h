@@ -28,6 +28,7 @@ class Session {
   // exit_done or exit_not_converged; Interrupted when a signal stopped it.
   int solve();
 
+  bool scene_is_file() const { return options_.scene_is_file(); }
   int64_t bands() const;
   int64_t patches() const;
   std::string parameter(const char* name) const;

@@ -2,7 +2,7 @@
 # nothing on stdout.
 . "$(dirname "$0")/common.sh"
 
-commands='solve export query info scene machine params'
+commands='solve export render query info scene machine params'
 
 works --version
 [ "$(cat out)" = "hrad $(sed -n 's/.*HRAD_VERSION_MAJOR //p' "$HRAD_SOURCE_DIR/include/hrad/hrad.h")\
@@ -23,10 +23,10 @@ refuses 2 "a command is missing"
 refuses 2 "unknown command 'slove'" slove cornell
 refuses 2 "commands: solve, export" slove
 refuses 2 "unknown option '--bogus'" --bogus
-for command in render check partition; do
+for command in check partition; do
   refuses 2 "'$command' is not in this version" "$command" cornell
 done
-for command in solve export query info; do
+for command in solve export render query info; do
   refuses 2 "try 'hrad $command --help'" "$command" --bogus
   refuses 2 "hrad $command --help" "$command" -o x.csv
 done

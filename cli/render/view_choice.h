@@ -1,0 +1,22 @@
+// The automatic camera: inside a closed room a viewpoint from which much is seen and nothing is in
+// the way, before an open scene or an object one from which all of it is seen. CLI: public headers
+// only.
+#pragma once
+
+#include <optional>
+
+#include "render/camera.h"
+#include "render/geometry.h"
+
+namespace hrad::cli {
+
+// The axis, 0, 1 or 2, that points up: z in built-in scenes. In files y is likely; that lamps shine
+// along an axis, that more lies at its lower end than at its upper one, and that the scene is
+// flattest along it speak for an axis.
+int find_up_axis(const Geometry& geometry, bool built_in);
+
+// size: of the part of the picture that shows the scene.
+Camera choose_camera(const Geometry& geometry, const PictureSize& size, int up_axis,
+                     std::optional<double> fov);
+
+}  // namespace hrad::cli
