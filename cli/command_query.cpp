@@ -1,10 +1,14 @@
 // hrad query. CLI: public headers only.
 #include <algorithm>
+#include <numeric>
 
 #include "command.h"
 #include "json.h"
 #include "numbers.h"
+#include "output_files.h"
 #include "quantity.h"
+#include "render/grid_picture.h"
+#include "render/png_file.h"
 #include "run_options.h"
 #include "sensors.h"
 #include "session.h"
@@ -20,6 +24,7 @@ struct Request {
   std::optional<std::string> quantity_name;
   Quantity quantity;
   Sensors sensors;
+  std::optional<SensorGrid> grid;  // of which a picture is wanted
 
   bool asks_for_sensors() const { return !at.empty() || !sensor_files.empty() || !grids.empty(); }
 };
@@ -43,12 +48,16 @@ constexpr const char* notes =
     "The corners of --grid are opposite ones and must have exactly one coordinate in common: the\n"
     "normal points along that coordinate, in its positive direction. N counts cells along the\n"
     "first of the other two coordinates, which runs fastest, M along the second.\n"
+    "-o FILE.png also draws a grid, in false colours of the sum of the bands.\n"
     "In a file of sensors, numbers are separated by blanks or commas, and # begins a comment.\n"
     "Values are in W/m2 per band.\n"
     "\n"
     "Example: hrad query furnace --grid 0,0.5,0:1,0.5,1:8x8 --json";
 
-void resolve(Request* request) {
+void resolve(Request* request, bool wants_picture) {
+  if (wants_picture && (request->grids.size() != 1 || !request->at.empty() ||
+                        !request->sensor_files.empty() || request->patches))
+    fail_usage("query", "-o makes a picture of one --grid and nothing else");
   if (request->quantity_name) request->quantity = read_quantity(*request->quantity_name, "query");
   if (!request->asks_for_sensors()) request->patches = true;
   if (request->patches && request->asks_for_sensors() && !request->as_json)
@@ -57,7 +66,11 @@ void resolve(Request* request) {
     fail_usage("query", "at points there is irradiance alone; --quantity is for --patches");
   for (const std::string& text : request->at) add_sensor(text, &request->sensors);
   for (const std::string& path : request->sensor_files) add_sensor_file(path, &request->sensors);
-  for (const std::string& text : request->grids) add_sensor_grid(text, &request->sensors);
+  for (const std::string& text : request->grids) {
+    const SensorGrid grid = add_sensor_grid(text, &request->sensors);
+    if (wants_picture) request->grid = grid;
+  }
+  if (request->grid) check_grid_for_picture(*request->grid);
 }
 
 void append_header(std::string* text, const char* columns, std::initializer_list<const char*> names,
@@ -128,10 +141,13 @@ void append_patches(Session* session, const Request& request, Output* output, Js
   }
 }
 
-void append_sensors(Session* session, const Sensors& sensors, Output* output, JsonWriter* json) {
+// Returns the sums over the bands.
+std::vector<double> append_sensors(Session* session, const Sensors& sensors, Output* output,
+                                   JsonWriter* json) {
   const auto bands = static_cast<size_t>(session->bands());
   if (json == nullptr)
     append_header(&output->text(), "x,y,z,nx,ny,nz", {",irradiance", ",standard_error"}, bands);
+  std::vector<double> sums;
   // Few at a time, so that a signal needn't wait long.
   constexpr int64_t most_at_once = 1024;
   std::vector<double> irradiance(most_at_once * bands), standard_error(most_at_once * bands);
@@ -142,6 +158,7 @@ void append_sensors(Session* session, const Sensors& sensors, Output* output, Js
     check(hrad_query_sensors(session->solver(), count, xyz, normal, irradiance.data(),
                              standard_error.data()));
     for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+      sums.push_back(std::accumulate(&irradiance[i * bands], &irradiance[i * bands] + bands, 0.0));
       if (json != nullptr) {
         json->begin_object(JsonWriter::one_line);
         json->field("position", xyz + 3 * i, 3);
@@ -160,10 +177,12 @@ void append_sensors(Session* session, const Sensors& sensors, Output* output, Js
     }
     signals::check();
   }
+  return sums;
 }
 
-void append_json(Session* session, const std::string& scene, bool solved, const Request& request,
-                 Output* output) {
+std::vector<double> append_json(Session* session, const std::string& scene, bool solved,
+                                const Request& request, Output* output) {
+  std::vector<double> sums;
   JsonWriter json(&output->text());
   json.begin_object();
   json.field("scene", scene);
@@ -176,35 +195,44 @@ void append_json(Session* session, const std::string& scene, bool solved, const 
   }
   if (request.asks_for_sensors()) {
     json.begin_array("sensors");
-    append_sensors(session, request.sensors, output, &json);
+    sums = append_sensors(session, request.sensors, output, &json);
     json.end();
   }
   json.end();
+  return sums;
 }
 
 }  // namespace
 
 int run_query(const std::vector<std::string>& arguments, Output* output) {
   RunOptions options;
+  OutputFiles files(OutputFiles::pictures);
   Request request;
   Arguments parser("query", "Solve a scene and print values at patches, points or grids.", notes);
   options.add_to(&parser, "query", RunOptions::a_scene);
+  files.add_to(&parser, "query");
   add_to(&parser, &request);
   if (!parser.parse(arguments, &output->text())) return 0;
   options.check();
-  resolve(&request);
+  if (files.paths().size() > 1) fail_usage("query", "-o is given more than once");
+  resolve(&request, !files.paths().empty());
+  files.check(options.scene_is_file() ? options.scene() : "");
 
   Session session(options);
   session.load();
   // Emission is known without a solve.
   const bool solves = request.asks_for_sensors() || request.quantity.number != HRAD_EMISSION;
   const int code = solves ? session.solve() : 0;
+  std::vector<double> sums;
   if (request.as_json)
-    append_json(&session, options.scene(), solves, request, output);
+    sums = append_json(&session, options.scene(), solves, request, output);
   else if (request.patches)
     append_patches(&session, request, output, nullptr);
   else
-    append_sensors(&session, request.sensors, output, nullptr);
+    sums = append_sensors(&session, request.sensors, output, nullptr);
+  if (request.grid)
+    write_png(make_grid_picture(*request.grid, sums, static_cast<size_t>(session.bands())),
+              files.paths().front());
   return code;
 }
 

@@ -85,6 +85,10 @@ int run_render(const std::vector<std::string>& arguments, Output* output) {
   const int code = session.solve();
   const auto start = std::chrono::steady_clock::now();
   const Picture picture = make_picture(&session, geometry, camera, render.picture());
+  if (picture.dark && options.verbosity() != Verbosity::quiet)
+    session.terminal().say(
+        "warning: most of what the picture shows is black: backs of one-sided surfaces, or unlit; "
+        "if surfaces are inside out, --flip or --two-sided helps");
   const std::string& path = files.paths().front();
   write_png(picture.image, path);
   const double seconds =

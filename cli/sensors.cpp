@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -113,7 +114,7 @@ void add_sensor_file(const std::string& path, Sensors* sensors) {
   }
 }
 
-void add_sensor_grid(const std::string& text, Sensors* sensors) {
+SensorGrid add_sensor_grid(const std::string& text, Sensors* sensors) {
   const auto parts = split(text, ':');
   Vector from{}, to{};
   int64_t cells[2] = {0, 0};
@@ -145,6 +146,10 @@ void add_sensor_grid(const std::string& text, Sensors* sensors) {
       position[second] = centre(second, j, cells[1]);
       add(position, normal, sensors);
     }
+  return {{cells[0], cells[1]},
+          {std::fabs(to[first] - from[first]), std::fabs(to[second] - from[second])},
+          "xyz"[axis],
+          from[axis]};
 }
 
 }  // namespace hrad::cli

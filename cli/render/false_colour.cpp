@@ -55,7 +55,7 @@ std::vector<double> tick_values(const ColourRange& range, int wanted) {
     }
   std::vector<double> ticks;
   const double first = std::ceil(range.low / step - 1e-9), last = range.high / step + 1e-9;
-  for (double k = first; k <= last; ++k) ticks.push_back(k * step);
+  for (double k = first; k <= last; ++k) ticks.push_back(k * step + 0.0);  // no -0
   return ticks;
 }
 

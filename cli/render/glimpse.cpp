@@ -10,7 +10,7 @@ namespace hrad::cli {
 namespace {
 
 constexpr int glimpse_width = 96;
-constexpr double near_diagonals = 0.06;  // what is nearer spoils a view
+constexpr double near_share = 0.2;  // of the box's shortest side: what is nearer spoils a view
 
 }  // namespace
 
@@ -24,15 +24,17 @@ Glimpse take_glimpse(const Geometry& geometry, const Camera& camera, const Pictu
   std::set<int32_t> distinct;
   const double share = 1.0 / static_cast<double>(visible.patch.size());
   double seen = 0;
+  const Vector3 box = geometry.upper - geometry.lower;
+  const double near = near_share * std::min({box.x, box.y, box.z});
   for (size_t sample = 0; sample < visible.patch.size(); ++sample) {
     const int32_t patch = visible.patch[sample];
     if (patch == Visible::nothing) {
       glimpse.background += share;
       continue;
     }
-    const double depth = 1 / (visible.inverse_depth[sample] * geometry.diagonal());
-    glimpse.near += depth < near_diagonals ? share : 0;
-    glimpse.depth += depth;
+    const double depth = 1 / visible.inverse_depth[sample];
+    glimpse.near += depth < near ? share : 0;
+    glimpse.depth += depth / geometry.diagonal();
     seen += 1;
     if (geometry.is_black(patch, visible.front[sample] != 0))
       glimpse.black += share;

@@ -53,11 +53,22 @@ SeenValues survey(Session* session, const Geometry& geometry, const Camera& came
   SeenValues seen;
   for (size_t sample = 0; sample < visible.patch.size(); ++sample) {
     const double* bands = values.at(sample);
-    if (bands == nullptr) continue;
+    if (bands == nullptr) {
+      if (visible.patch[sample] != Visible::nothing) seen.black += 1;
+      continue;
+    }
     const bool emits = geometry.has(visible.patch[sample], Geometry::emitter);
     (emits ? seen.emitting : seen.lit).push_back(sum_of(bands, values.bands()));
   }
   return seen;
+}
+
+// Most of what is seen is black by the meaning of sides, or unlit.
+bool is_dark(const SeenValues& seen) {
+  const auto unlit =
+      std::count_if(seen.lit.begin(), seen.lit.end(), [](double v) { return v <= 0; });
+  const size_t all = seen.black + seen.lit.size() + seen.emitting.size();
+  return 2 * (seen.black + static_cast<size_t>(unlit)) > all;
 }
 
 // What lamps show would leave little of the range for everything else.
@@ -68,10 +79,9 @@ ColourRange range_of(const SeenValues& seen, const PictureOptions& options) {
   return {range.low / brighter, range.high / brighter};
 }
 
-// A line is dark on light colours and light on dark ones.
+// A line is dark, but light on dark colours.
 Colour with_line(const Colour& colour) {
-  const double light = luminance(colour) > 0.18 ? 0 : 1;
-  return mix(colour, {light, light, light}, 0.55);
+  return luminance(colour) > 0.035 ? mix(colour, {0, 0, 0}, 0.6) : mix(colour, {1, 1, 1}, 0.25);
 }
 
 using Painter = std::function<Colour(const double* bands)>;
@@ -122,7 +132,8 @@ Picture make_picture(Session* session, const Geometry& geometry, const Camera& c
   const Backs backs = is_outside(camera.eye, geometry) ? Backs::hidden : Backs::black;
   const auto bands = static_cast<size_t>(session->bands());
   const SeenValues seen = survey(session, geometry, camera, size, backs, options.quantity);
-  Picture picture{Image(options.size.width, options.size.height), backs == Backs::hidden, 0, {}};
+  Picture picture{
+      Image(options.size.width, options.size.height), backs == Backs::hidden, is_dark(seen), 0, {}};
   // The scale is for means of the bands.
   picture.scale =
       ToneMap::scale_for(seen) * static_cast<double>(bands) * std::exp2(options.exposure);

@@ -25,6 +25,7 @@ struct PictureOptions {
 struct Picture {
   Image image;
   bool backs_hidden;  // the backs of one-sided patches were left out
+  bool dark;          // most of what is seen is black
   double scale;       // light of the screen per W/m2, when not in false colour
   ColourRange range;  // of false colour
 };

@@ -8,8 +8,9 @@
 
 namespace hrad::cli {
 
-// What a survey of a picture found, as sums over the bands, W/m2. Black and background are not in.
+// What a survey of a picture found, as sums over the bands, W/m2.
 struct SeenValues {
+  size_t black = 0;              // samples of sides that are black by the meaning of sides
   std::vector<double> lit;       // of patches that don't emit
   std::vector<double> emitting;  // of those that do
 };

@@ -12,14 +12,23 @@ namespace {
 
 constexpr double inside_fov = 60, outside_fov = 40;  // degrees
 
-// A room is closed when less than this share of all directions leaves it through its openings.
-constexpr double most_open = 0.12;
-constexpr double most_black =
-    0.3;  // around a point that lies in the room and not in a wall or desk
+// A room is closed when from most places in it less than this share of all directions leaves it.
+constexpr double most_open = 0.05;
+// What a place in a room may have around it; others lie in a wall, in a desk or outside.
+constexpr double most_black = 0.3, most_background = 0.4;
 
-// The glimpses of a scene of a million patches take some seconds, more patches get fewer.
+// Lamps that shine along an axis.
+constexpr double along_axis = 0.8;
+
+// Glimpses of all patches together: some seconds. Larger scenes get fewer glimpses.
 constexpr int64_t most_patches_seen = 40'000'000;
-constexpr size_t fewest_candidates = 12;
+constexpr size_t fewest_cameras = 12, fewest_places = 5;
+
+// How many of `wanted` things can be tried that take so many glimpses each.
+size_t affordable(const Geometry& geometry, int64_t glimpses, size_t fewest, size_t wanted) {
+  const int64_t patches = std::max<int64_t>(1, glimpses * geometry.patches());
+  return std::min(wanted, std::max(fewest, static_cast<size_t>(most_patches_seen / patches)));
+}
 
 // Shares of the way along the two level axes and the axis up.
 class Box {
@@ -132,56 +141,47 @@ Camera best_of(const Geometry& geometry, const std::vector<Camera>& cameras,
   return cameras[best];
 }
 
+// Places where a viewer might stand: the middle first.
+std::vector<Vector3> places_inside(const Box& box) {
+  std::vector<Vector3> places;
+  for (double height : {0.55, 0.25})
+    for (double x : {0.5, 0.25, 0.75})
+      for (double y : {0.5, 0.25, 0.75}) places.push_back(box.at(x, y, height));
+  return places;
+}
+
 bool is_closed_room(const Geometry& geometry, const Box& box) {
-  double background = 0;
-  int points = 0;
-  for (double x : {0.25, 0.5, 0.75})
-    for (double y : {0.25, 0.5, 0.75}) {
-      if ((x == 0.5) != (y == 0.5)) continue;
-      const Surroundings around = look_around(geometry, box.at(x, y, 0.55));
-      if (around.black > most_black) continue;
-      background += around.background;
-      ++points;
-    }
-  return points > 0 && background / points < most_open;
+  std::vector<double> open;  // per place in the room
+  std::vector<Vector3> places = places_inside(box);
+  places.resize(affordable(geometry, 6, fewest_places, places.size()));
+  for (const Vector3& place : places) {
+    const Surroundings around = look_around(geometry, place);
+    if (around.black <= most_black && around.background <= most_background)
+      open.push_back(around.background);
+  }
+  if (open.empty()) return false;
+  const auto middle = open.begin() + static_cast<std::ptrdiff_t>(open.size() / 2);
+  std::nth_element(open.begin(), middle, open.end());
+  return *middle < most_open;
 }
 
 }  // namespace
 
 int find_up_axis(const Geometry& geometry, bool built_in) {
-  if (built_in) return 2;
-  double votes[3] = {0, 0.5, 0.25};
-  double power[3] = {0, 0, 0}, total_power = 0;
-  double low_corners[3] = {0, 0, 0}, high_corners[3] = {0, 0, 0};
+  constexpr int y = 1, z = 2;
+  if (built_in) return z;
   const Vector3 size = geometry.upper - geometry.lower;
+  if (size.z > std::min(size.x, size.y)) return y;
+  double power_along_z = 0, power = 0;
   for (int64_t patch = 0; patch < geometry.patches(); ++patch) {
     if (geometry.has(patch, Geometry::dropped)) continue;
     const auto& corners = geometry.corners[static_cast<size_t>(patch)];
     const Vector3 twice_area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double emission = geometry.emission[static_cast<size_t>(patch)];
-    total_power += emission * length(twice_area);
-    for (int axis = 0; axis < 3; ++axis) {
-      power[axis] += emission * std::fabs(component(twice_area, axis));
-      for (const Vector3& corner : corners) {
-        const double height =
-            (component(corner, axis) - component(geometry.lower, axis)) / component(size, axis);
-        low_corners[axis] += height < 0.02;
-        high_corners[axis] += height > 0.98;
-      }
-    }
+    power += emission * length(twice_area);
+    power_along_z += emission * std::fabs(twice_area.z);
   }
-  int flattest = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (component(size, axis) < component(size, flattest)) flattest = axis;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (total_power > 0) votes[axis] += 0.3 * power[axis] / total_power;
-    const double ends = low_corners[axis] + high_corners[axis];
-    if (ends > 0) votes[axis] += 0.3 * (low_corners[axis] - high_corners[axis]) / ends;
-    const double others =
-        std::min(component(size, (axis + 1) % 3), component(size, (axis + 2) % 3));
-    if (axis == flattest && component(size, axis) < 0.8 * others) votes[axis] += 0.2;
-  }
-  return static_cast<int>(std::max_element(votes, votes + 3) - votes);
+  return power_along_z > along_axis * power ? z : y;
 }
 
 Camera choose_camera(const Geometry& geometry, const PictureSize& size, int up_axis,
@@ -191,9 +191,7 @@ Camera choose_camera(const Geometry& geometry, const PictureSize& size, int up_a
   std::vector<Camera> cameras =
       inside ? cameras_inside(box, fov.value_or(inside_fov))
              : cameras_outside(geometry, box, size, fov.value_or(outside_fov));
-  const auto affordable =
-      static_cast<size_t>(most_patches_seen / std::max<int64_t>(1, geometry.patches()));
-  cameras.resize(std::min(cameras.size(), std::max(fewest_candidates, affordable)));
+  cameras.resize(affordable(geometry, 1, fewest_cameras, cameras.size()));
   return best_of(geometry, cameras, size, inside ? judge_inside : judge_outside);
 }
 

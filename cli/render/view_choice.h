@@ -10,9 +10,8 @@
 
 namespace hrad::cli {
 
-// The axis, 0, 1 or 2, that points up: z in built-in scenes. In files y is likely; that lamps shine
-// along an axis, that more lies at its lower end than at its upper one, and that the scene is
-// flattest along it speak for an axis.
+// The axis, 0, 1 or 2, that points up: z in built-in scenes; y in files, but z where the lamps
+// shine along z and the scene is no higher than wide then.
 int find_up_axis(const Geometry& geometry, bool built_in);
 
 // size: of the part of the picture that shows the scene.
