@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # From a fresh clone to a first result: installs what is missing (Debian, as root or with sudo),
-# builds the library and the tool, solves the Classroom scene, and leaves its summary and the
-# solution as .vtu and .csv in the folder out/.
+# builds the library and the tool, solves the Classroom scene, and leaves its summary, a picture and
+# the solution as .vtu and .csv in the folder out/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -13,5 +13,6 @@ cmake -S . -B build "${generator[@]}" -DCMAKE_BUILD_TYPE=Release -DHRAD_TESTS=OF
 cmake --build build --parallel "$(nproc)"
 
 mkdir -p out
-build/hrad solve classroom -o out/classroom.vtu -o out/classroom.csv | tee out/classroom.txt
+build/hrad solve classroom -o out/classroom.png -o out/classroom.vtu -o out/classroom.csv |
+  tee out/classroom.txt
 echo "This summary is in out/classroom.txt."

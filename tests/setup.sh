@@ -5,7 +5,7 @@
 #   bash tests/setup.sh tests   and what the tests need besides
 set -euo pipefail
 
-packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev)
+packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev libpng-dev)
 optional=()
 case "${1:-build}" in
   build) ;;
@@ -22,7 +22,7 @@ esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "This is no Debian system: make sure that there are a C++17 compiler, cmake, ninja," \
-    "pkg-config, hwloc and CLI11 (for the tests also cmocka and python3)." >&2
+    "pkg-config, hwloc, CLI11 and, for pictures, libpng (for the tests also cmocka and python3)." >&2
   exit 0
 fi
 
