@@ -18,7 +18,7 @@ constexpr double left_out = 0.01;  // of the values, at either end
 // The smallest round number that is not below the value, which is positive.
 double rounded_up(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (double step : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+  for (double step : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (value <= step * power * (1 + 1e-9)) return step * power;
   return 10 * power;
 }

@@ -78,7 +78,7 @@ def outside_sees_only_the_public_header(tree):
 
 
 def foreign_headers_stay_in_their_files(tree):
-    """hwloc.h and zlib.h in one file each, mpi.h where messages are; no <iostream> in lib/."""
+    """hwloc.h, zlib.h and png.h in one file each, mpi.h where messages are; no <iostream> in lib/."""
     offences = []
     zlib_files = []
     for path in tree.under("lib/", "cli/", "tests/", "include/", suffixes=CODE):
@@ -87,6 +87,9 @@ def foreign_headers_stay_in_their_files(tree):
             if name.split("/")[0] in ("hwloc.h", "hwloc"):
                 if path != "lib/machine/topology.cpp":
                     offences.append(Offence(path, line, "hwloc belongs to machine/topology.cpp"))
+            elif name == "png.h":
+                if path != "cli/render/png_file.cpp":
+                    offences.append(Offence(path, line, "png.h belongs to cli/render/png_file.cpp"))
             elif name == "mpi.h":
                 if not (stem in ("comm_mpi", "file_mpi", "api_mpi") or stem == "hrad_mpi" or
                         path.startswith("cli/launcher") or path.startswith("tests/mpi/")):
