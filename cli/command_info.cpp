@@ -60,7 +60,7 @@ void append_text(std::string* text, const std::string& scene, const SceneReport&
   materials.add_row({"", "MATERIAL", "REFLECTANCE", "EMISSION", "PATCHES", "AREA", "FLAGS"});
   for (size_t i = 0; i < report.materials.size(); ++i) {
     const MaterialReport& material = report.materials[i];
-    materials.add_row({std::to_string(i), material.name, join(material.reflectance),
+    materials.add_row({std::to_string(i), cell_text(material.name), join(material.reflectance),
                        join(material.emission), std::to_string(material.patches),
                        short_text(material.area, digits), flags_text(material.flags)});
   }

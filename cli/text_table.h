@@ -7,6 +7,9 @@
 
 namespace hrad::cli {
 
+// A name out of a file as it may stand in a table: cut when long, control characters replaced.
+std::string cell_text(const std::string& name);
+
 class TextTable {
  public:
   // One letter per column: 'l' aligns left, 'r' right; columns without a letter align left.

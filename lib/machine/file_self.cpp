@@ -116,6 +116,21 @@ void WholeFile::commit() {
   ::close(folder);
 }
 
+bool resolve_path(const std::string& path, std::string& resolved) {
+  char* found = ::realpath(path.c_str(), nullptr);
+  if (!found) {
+    if (errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG) return false;
+    if (errno == ENOMEM) fail(Status::memory, "out of memory for a path");
+    fail(Status::file, "%s: cannot look up: %s", path.c_str(), std::strerror(errno));
+  }
+  struct Freer {
+    char* text;
+    ~Freer() { std::free(text); }
+  } const freer{found};
+  resolved = found;
+  return true;
+}
+
 bool read_file(const std::string& path, std::string& content) {
   struct Descriptor {
     int file;

@@ -38,6 +38,10 @@ class WholeFile {
   std::vector<char> buffer_;
 };
 
+// The path with every link in it resolved. False when nothing has this name, or nothing can have it
+// because it is too long; FILE when it can't be looked up.
+bool resolve_path(const std::string& path, std::string& resolved);
+
 // Reads a regular file. False when nothing has this name; FILE for anything else that is no regular
 // file (a folder, a device, a pipe: it is not waited for) or can't be read; MEMORY for one larger
 // than half this machine's memory.

@@ -1,6 +1,8 @@
 // Reads MTL text. Floor 3 (scene).
 #include "scene/mtl_reader.h"
 
+#include <algorithm>
+
 #include "scene/obj_lexer.h"
 
 namespace hrad {
@@ -51,6 +53,24 @@ std::array<double, 3> color(ObjLexer& lexer) {
   return values;
 }
 
+// Statements without a meaning for diffuse light.
+constexpr std::string_view silent[] = {"Ka", "Ns", "Ni", "Tf", "illum", "sharpness", "Km",
+                                       "Pr", "Pm", "Ps", "Pc", "Pcr",   "aniso",     "anisor"};
+
+bool is_silent(std::string_view keyword) {
+  return std::find(std::begin(silent), std::end(silent), keyword) != std::end(silent);
+}
+
+// Whether one of the words is a number on this side of a bound.
+template <class Test>
+bool any_number(ObjLexer& lexer, const Test& test) {
+  for (std::string_view word : lexer.words()) {
+    double value = 0;
+    if (parse_number(word, value) == NumberForm::number && test(value)) return true;
+  }
+  return false;
+}
+
 bool is_texture(std::string_view keyword) {
   return keyword.substr(0, 4) == "map_" || keyword == "bump" || keyword == "disp" ||
          keyword == "decal" || keyword == "refl" || keyword == "norm";
@@ -62,12 +82,14 @@ void read_mtl(const std::string& path, std::string_view text, MtlLibrary& librar
   ObjLexer lexer(path, text);
   MtlMaterial ignored;  // takes what is said of a repeated name
   MtlMaterial* current = nullptr;
+  bool transparent = false, specular = false;  // the current material is counted as such
   while (lexer.next()) {
     const std::string_view keyword = lexer.keyword();
     if (keyword == "newmtl") {
       if (lexer.rest().empty()) lexer.fail_here("newmtl without a name");
       const std::string name(lexer.rest());
       const int32_t number = static_cast<int32_t>(library.materials.size());
+      transparent = specular = false;
       if (library.numbers.emplace(name, number).second) {
         library.materials.emplace_back();
         current = &library.materials.back();
@@ -96,8 +118,25 @@ void read_mtl(const std::string& path, std::string_view text, MtlLibrary& librar
       current->has_reflectance = true;
     } else if (is_texture(keyword)) {
       note(library.textures, library.first_texture, lexer);
+    } else if (keyword == "d" || keyword == "Tr") {
+      const bool opaque_is_one = keyword == "d";
+      const auto transmits = [&](double v) { return opaque_is_one ? v < 1 : v > 0; };
+      if (!transparent && any_number(lexer, transmits)) {
+        note(library.transparent, library.first_transparent, lexer);
+        transparent = true;
+      }
+    } else if (keyword == "Ks") {
+      if (!specular && any_number(lexer, [](double v) { return v > 0; })) {
+        note(library.specular, library.first_specular, lexer);
+        specular = true;
+      }
+    } else if (!is_silent(keyword)) {
+      note(library.unknown, library.first_unknown, lexer);
     }
   }
+  if (lexer.vanished() > 0 && library.vanished == 0)
+    library.first_vanished = lexer.first_vanished();
+  library.vanished += lexer.vanished();
 }
 
 }  // namespace hrad

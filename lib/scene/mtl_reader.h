@@ -23,8 +23,11 @@ struct MtlLibrary {
   std::vector<MtlMaterial> materials;      // in order of definition
   std::map<std::string, int32_t> numbers;  // by name
   // What was repaired or ignored, with the first place of each.
-  int64_t clamped = 0, textures = 0, repeated = 0;
-  std::string first_clamped, first_texture, first_repeated;
+  int64_t clamped = 0, textures = 0, repeated = 0, vanished = 0, unknown = 0;
+  std::string first_clamped, first_texture, first_repeated, first_vanished, first_unknown;
+  // Materials that transmit light (d, Tr) or shine (Ks): here they are opaque and diffuse.
+  int64_t transparent = 0, specular = 0;
+  std::string first_transparent, first_specular;
 };
 
 // Adds the materials of one MTL text; path is for messages. A name defined before keeps its first

@@ -64,6 +64,8 @@ class Parser {
 
   ObjContent parse() {
     while (lexer_.next()) statement();
+    content_.vanished = lexer_.vanished();
+    content_.first_vanished = lexer_.first_vanished();
     for (const Reference* reference : {&vertex_, &texture_, &normal_}) reference->check(lexer_);
     return std::move(content_);
   }

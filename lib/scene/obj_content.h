@@ -29,6 +29,8 @@ struct ObjContent {
   bool z_up = false;  // marked so
   // What was repaired or ignored, with the first line of each.
   int64_t repeated_corners = 0, first_repeated_corner = 0;
+  int64_t vanished = 0;  // numbers too small for a double
+  std::string first_vanished;
   struct Count {
     int64_t count = 0, first_line = 0;
   };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "base/error.h"
@@ -32,15 +31,40 @@ size_t comment_start(std::string_view line) {
   return at;
 }
 
+// Whether a number that no double holds, 0 or infinity to one, is the latter: the power of ten of
+// its first digit other than 0 decides.
+bool is_large(std::string_view number) {
+  const size_t exponent_at = number.find_first_of("eE");
+  const std::string_view digits = number.substr(0, exponent_at);
+  int64_t exponent = 0;
+  if (exponent_at != std::string_view::npos) {
+    std::string_view word = number.substr(exponent_at + 1);
+    if (word[0] == '+') word.remove_prefix(1);
+    // An exponent that overflows too outweighs all digits, and so does one far from overflow.
+    constexpr int64_t more_than_digits = int64_t{1} << 60;
+    if (!parse_integer(word, exponent)) return word[0] != '-';
+    exponent = std::clamp(exponent, -more_than_digits, more_than_digits);
+  }
+  const size_t point = std::min(digits.find('.'), digits.size());
+  const size_t first = std::min(digits.find_first_of("123456789"), digits.size());
+  return exponent + static_cast<int64_t>(point) - static_cast<int64_t>(first) > 0;
+}
+
 }  // namespace
 
 std::string quoted(std::string_view word) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(word[i]); };
+  size_t end = std::min(word.size(), longest_quote);
+  if (end < word.size())  // not inside a character of UTF-8, which has up to four bytes
+    for (int i = 0; i < 3 && byte(end) >> 6 == 2; ++i) --end;
   std::string result = "'";
-  for (char c : word.substr(0, longest_quote)) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    result += byte < 0x20 || byte == 0x7f ? '?' : c;
+  for (size_t i = 0; i < end; ++i) {
+    // The second set of control characters, U+0080 to U+009F, has two bytes.
+    const bool second_set = byte(i) == 0xc2 && i + 1 < end && byte(i + 1) < 0xa0;
+    result += byte(i) < 0x20 || byte(i) == 0x7f || second_set ? '?' : word[i];
+    i += second_set;
   }
-  return result + (word.size() > longest_quote ? "...'" : "'");
+  return result + (end < word.size() ? "...'" : "'");
 }
 
 void split_words(std::string_view text, std::vector<std::string_view>& words) {
@@ -61,18 +85,34 @@ bool parse_integer(std::string_view word, int64_t& value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-bool parse_number(std::string_view word, double& value) {
+NumberForm parse_number(std::string_view word, double& value) {
   // from_chars knows no plus sign; files have it.
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const char* end = word.data() + word.size();
   const auto result = std::from_chars(word.data(), end, value, std::chars_format::general);
-  return result.ec == std::errc() && result.ptr == end && std::isfinite(value);
+  if (result.ptr != end) return NumberForm::none;
+  if (result.ec == std::errc()) return std::isfinite(value) ? NumberForm::number : NumberForm::none;
+  if (result.ec != std::errc::result_out_of_range) return NumberForm::none;
+  if (is_large(word)) return NumberForm::too_large;
+  value = 0;
+  return NumberForm::too_small;
 }
 
 ObjLexer::ObjLexer(std::string path, std::string_view text) : path_(std::move(path)), text_(text) {
+  refuse_what_is_no_text();
   if (text_.substr(0, 3) == "\xef\xbb\xbf") text_.remove_prefix(3);
-  if (!text_.empty() && std::memchr(text_.data(), 0, text_.size()))
-    fail(Status::scene, "%s: not a text file (it has zero bytes)", path_.c_str());
+}
+
+void ObjLexer::refuse_what_is_no_text() const {
+  const std::string_view mark = text_.substr(0, 2);
+  const size_t zero = text_.find('\0');
+  if (mark == "\xff\xfe" || mark == "\xfe\xff" || (zero < 2 && text_.size() > 2))
+    fail_at(1, "this is UTF-16 or UTF-32 text, or no text at all: save it as UTF-8");
+  if (zero == std::string_view::npos) return;
+  int64_t line = 1;
+  for (size_t i = 0; i < zero; ++i)
+    line += text_[i] == '\n' || (text_[i] == '\r' && text_[i + 1] != '\n');
+  fail_at(line, "a zero byte: this is not a text file, or it is damaged");
 }
 
 std::string ObjLexer::place(int64_t line) const { return path_ + ":" + std::to_string(line); }
@@ -136,9 +176,12 @@ const std::vector<std::string_view>& ObjLexer::words() {
 
 double ObjLexer::number(size_t i) {
   const std::string_view word = words()[i];
-  double value;
-  if (!parse_number(word, value)) fail_here(quoted(word) + " is not a number");
-  if (!(std::fabs(value) <= largest_number)) fail_here(quoted(word) + " is beyond 1e30");
+  double value = 0;
+  const NumberForm form = parse_number(word, value);
+  if (form == NumberForm::none) fail_here(quoted(word) + " is not a number");
+  if (form == NumberForm::too_large || std::fabs(value) > largest_number)
+    fail_here(quoted(word) + " is beyond 1e30");
+  if (form == NumberForm::too_small && vanished_++ == 0) first_vanished_ = line_;
   return value;
 }
 

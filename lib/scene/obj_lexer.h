@@ -32,8 +32,12 @@ class ObjLexer {
   std::string here() const { return place(line_); }  // "file:line"
   std::string place(int64_t line) const;
 
-  // Word i as a finite number of at most 1e30 in magnitude.
+  // Word i as a finite number of at most 1e30 in magnitude. One too small for a double is 0.
   double number(size_t i);
+
+  // How many numbers were too small, and the place of the first.
+  int64_t vanished() const { return vanished_; }
+  std::string first_vanished() const { return place(first_vanished_); }
 
   // Throws SCENE with file:line before the message.
   [[noreturn]] void fail_here(const std::string& message) const { fail_at(line_, message); }
@@ -41,26 +45,31 @@ class ObjLexer {
 
  private:
   std::string_view physical_line();
+  void refuse_what_is_no_text() const;
 
   std::string path_;
   std::string_view text_;
   size_t position_ = 0;
   int64_t line_ = 0, lines_read_ = 0;
+  int64_t vanished_ = 0, first_vanished_ = 0;
   std::string joined_;  // holds a statement of several lines
   std::string_view keyword_, rest_;
   std::vector<std::string_view> words_;
   bool words_known_ = false;
 };
 
-// A word for a message: quoted, cut when long, control characters replaced.
+// A word for a message: quoted, cut between characters when long, control characters replaced.
 std::string quoted(std::string_view word);
 
 // The words of a text, cut at blanks and tabs.
 void split_words(std::string_view text, std::vector<std::string_view>& words);
 
-// The whole word as an integer or a finite number; false when it is anything else (nan, inf, hex,
-// decimal commas, trailing characters, overflow).
+// The whole word as an integer; false when it is anything else (trailing characters, overflow).
 bool parse_integer(std::string_view word, int64_t& value);
-bool parse_number(std::string_view word, double& value);
+
+// The whole word as a number. `none` is anything else (nan, inf, hex, decimal commas, trailing
+// characters); what is too small for a double becomes 0.
+enum class NumberForm { number, none, too_large, too_small };
+NumberForm parse_number(std::string_view word, double& value);
 
 }  // namespace hrad

@@ -1,13 +1,12 @@
 // Reads an OBJ file with its MTL files into a scene. Floor 3 (scene).
 #include <algorithm>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "base/error.h"
 #include "machine/file_self.h"
 #include "scene/load.h"
-#include "scene/mtl_reader.h"
+#include "scene/material_files.h"
 #include "scene/obj_content.h"
 #include "scene/obj_lexer.h"
 #include "scene/triangulate.h"
@@ -17,12 +16,6 @@ namespace hrad {
 namespace {
 
 using std::to_string;
-
-bool ends_with_mtl(std::string_view word) {
-  if (word.size() < 4) return false;
-  const std::string_view ending = word.substr(word.size() - 4);
-  return ending == ".mtl" || ending == ".MTL";
-}
 
 class Reader {
  public:
@@ -35,7 +28,7 @@ class Reader {
     if (!read_file(path_, text))
       fail(Status::file, "%s: cannot open: No such file or directory", path_.c_str());
     content_ = parse_obj(path_, text);
-    for (const ObjContent::Library& library : content_.libraries) read_library(library);
+    read_material_files(path_, content_, mtl_, made_.diagnostics);
     add_materials();
     made_.vertices = std::move(content_.vertices);
     made_.z_up = content_.z_up;
@@ -49,55 +42,6 @@ class Reader {
   void say(std::string text) { made_.diagnostics.push_back(std::move(text)); }
 
   // ---- materials
-
-  std::string folder() const {
-    const size_t slash = path_.rfind('/');
-    return slash == std::string::npos ? "" : path_.substr(0, slash + 1);
-  }
-
-  // A scene may come from anywhere: it names files of its own folder and the folders below.
-  void check_name(const std::string& name, int64_t line) const {
-    bool leaves = name[0] == '/';
-    for (size_t begin = 0; begin <= name.size();) {
-      const size_t end = std::min(name.find('/', begin), name.size());
-      leaves = leaves || name.compare(begin, end - begin, "..") == 0;
-      begin = end + 1;
-    }
-    if (leaves)
-      throw Error(Status::scene, place(line) + ": mtllib " + quoted(name) +
-                                     " lies outside the folder of the scene and is refused");
-  }
-
-  // One name with blanks if there is such a file, otherwise several names: each goes up to a word
-  // that ends in .mtl, or to the end.
-  void read_library(const ObjContent::Library& library) {
-    check_name(library.names, library.line);
-    if (read_materials(library.names)) return;
-    std::vector<std::string_view> words;
-    split_words(library.names, words);
-    const char* begin = nullptr;
-    for (size_t i = 0; i < words.size(); ++i) {
-      if (!begin) begin = words[i].data();
-      if (!ends_with_mtl(words[i]) && i + 1 < words.size()) continue;
-      const char* end = words[i].data() + words[i].size();
-      const std::string name(begin, static_cast<size_t>(end - begin));
-      begin = nullptr;
-      check_name(name, library.line);
-      if (!read_materials(name))
-        say(place(library.line) + ": no file " + quoted(folder() + name) +
-            ": its materials are unknown");
-    }
-  }
-
-  // False when there is no such file.
-  bool read_materials(const std::string& name) {
-    if (libraries_read_.count(name)) return true;
-    std::string text;
-    if (!read_file(folder() + name, text)) return false;
-    libraries_read_.insert(name);
-    read_mtl(folder() + name, text, mtl_);
-    return true;
-  }
 
   std::vector<double> in_bands(const std::array<double, 3>& rgb) const {
     if (made_.bands == 3) return {rgb.begin(), rgb.end()};
@@ -162,13 +106,28 @@ class Reader {
         made_.add_patch(corners[t[0]], corners[t[1]], corners[t[2]], material, face);
       }
     }
-    for (size_t i = 0; i < unknown_material.size(); ++i)
-      if (unknown_material[i])
-        say(place(content_.material_line[i]) + ": material " + quoted(content_.material_names[i]) +
-            " is unknown: reflectance 0.5 for its " + to_string(unknown_material[i]) + " faces");
+    describe_unknown(unknown_material);
   }
 
   // ---- what was doubtful
+
+  // Per unknown material its faces; the first few by name.
+  void describe_unknown(const std::vector<int64_t>& faces_of_name) {
+    constexpr int64_t most_named = 8;
+    int64_t unknown = 0, further_faces = 0;
+    for (size_t i = 0; i < faces_of_name.size(); ++i) {
+      if (faces_of_name[i] == 0) continue;
+      if (++unknown <= most_named)
+        say(place(content_.material_line[i]) + ": material " + quoted(content_.material_names[i]) +
+            " is unknown: reflectance 0.5 for its " + to_string(faces_of_name[i]) + " faces");
+      else
+        further_faces += faces_of_name[i];
+    }
+    if (unknown > most_named)
+      say(path_ + ": " + to_string(unknown - most_named) +
+          " further materials are unknown: reflectance 0.5 for their " + to_string(further_faces) +
+          " faces");
+  }
 
   void describe() {
     if (faces_without_material_)
@@ -183,6 +142,20 @@ class Reader {
     if (mtl_.repeated)
       say(to_string(mtl_.repeated) +
           " repeated definitions of a material are ignored (first: " + mtl_.first_repeated + ")");
+    if (mtl_.transparent)
+      say(to_string(mtl_.transparent) + " materials let light through (d, Tr) and are taken as " +
+          "opaque (first: " + mtl_.first_transparent + ")");
+    if (mtl_.specular)
+      say(to_string(mtl_.specular) +
+          " materials shine (Ks) and are taken as diffuse (first: " + mtl_.first_specular + ")");
+    if (mtl_.unknown)
+      say(to_string(mtl_.unknown) +
+          " unknown statements about materials are ignored (first: " + mtl_.first_unknown + ")");
+    for (const auto& [count, first_place] : {std::pair(content_.vanished, content_.first_vanished),
+                                             std::pair(mtl_.vanished, mtl_.first_vanished)})
+      if (count)
+        say(to_string(count) +
+            " numbers are too small to be told from 0 and are 0 (first: " + first_place + ")");
     int64_t without = 0;
     std::string first_without;
     for (const MtlMaterial& m : mtl_.materials)
@@ -210,7 +183,6 @@ class Reader {
   Sides sides_;
   ObjContent content_;
   MtlLibrary mtl_;
-  std::set<std::string> libraries_read_;
   std::vector<int32_t> material_of_name_;  // per usemtl name; -1: unknown
   int32_t default_material_ = -1;
   int64_t fans_ = 0, first_fan_ = 0, faces_without_material_ = 0;

@@ -89,12 +89,33 @@ void refused() {
   check_error("newmtl a\nKd .1 -.1 .1\n", "a.mtl:2: Kd '-.1' is negative");
   check_error("newmtl a\nKe -1 0 0\n", "a.mtl:2: Ke '-1' is negative");
   check_error("newmtl a\nKe 1e31\n", "a.mtl:2: '1e31' is beyond 1e30");
-  for (const char* word : {"nan", "inf", "0,5", "1e999", "0x1", "1f", "red"})
+  check_error("newmtl a\nKd 1e999\n", "a.mtl:2: '1e999' is beyond 1e30");
+  for (const char* word : {"nan", "inf", "0,5", "0x1", "1f", "red"})
     check_error(std::string("newmtl a\nKd .1 .1 ") + word + "\n",
                 "a.mtl:2: '" + std::string(word) + "' is not a number");
   check_error("Kd .5\nnewmtl a\n", "a.mtl:1: Kd before the first newmtl");
   check_error("newmtl\nKd .5\n", "a.mtl:1: newmtl without a name");
-  check_error(std::string("newmtl a\n\0", 10), "a.mtl: not a text file");
+  check_error(std::string("newmtl a\n\0", 10), "a.mtl:2: a zero byte");
+}
+
+void what_this_reader_has_no_use_for_is_counted() {
+  const MtlLibrary l = read(
+      "newmtl a\nKd .1\nNi 1\nillum 2\nd 1\nTr 0\nKs 0 0 0\nTf 1 1 1\nkd 1\n"
+      "newmtl b\nKd .1\nKs 0 .5 0\nKs 1 1 1\nd -halo 0.5\nTr 0.5\nnewmtl c\nTr 1\nfoo\n");
+  CHECK_EQUAL(l.unknown, int64_t{2});
+  CHECK(l.first_unknown == "a.mtl:9");
+  CHECK_EQUAL(l.specular, int64_t{1});
+  CHECK(l.first_specular == "a.mtl:12");
+  CHECK_EQUAL(l.transparent, int64_t{2});
+  CHECK(l.first_transparent == "a.mtl:14");
+}
+
+void too_small_numbers_are_zero() {
+  const MtlLibrary l = read("newmtl a\nKd .5 1e-999 .5\nKe 1e-320\n");
+  CHECK((l.materials[0].reflectance == Color{.5, 0, .5}));
+  CHECK(l.materials[0].emission[0] > 0);
+  CHECK_EQUAL(l.vanished, int64_t{1});
+  CHECK(l.first_vanished == "a.mtl:2");
 }
 
 void minus_zero_is_zero() {
@@ -112,6 +133,8 @@ int main() {
       HRAD_TEST(marks_are_read),
       HRAD_TEST(the_first_definition_counts),
       HRAD_TEST(refused),
+      HRAD_TEST(what_this_reader_has_no_use_for_is_counted),
+      HRAD_TEST(too_small_numbers_are_zero),
       HRAD_TEST(minus_zero_is_zero),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -19,7 +19,12 @@ using Corners = std::array<int32_t, 3>;
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 void check_error(const std::string& text, const std::string& message) {
-  SceneFolder folder;
+  const SceneFolder folder;
+  CHECK_FAILS(folder.load(text), Status::scene, message);
+}
+
+void check_error_in(const SceneFolder& folder, const std::string& text,
+                    const std::string& message) {
   CHECK_FAILS(folder.load(text), Status::scene, message);
 }
 
@@ -122,12 +127,14 @@ void numbers_of_vertices() {
   CHECK_EQUAL(folder.load("v 0.1 0 1e30\n" + rest).vertices[0].x, 0.1);
   for (const char* n : {"2", "1 2", "1 2 3 4 5", "1 2 3 4 5 6 7", ""})
     check_error(std::string("v ") + n + "\n" + rest, ":1: a vertex has 3, 4 or 6 numbers");
-  for (const char* word : {"nan", "inf", "-inf", "infinity", "0x10", "1,5", "1e999", "10abc",
+  for (const char* word : {"nan", "inf", "-inf", "infinity", "0x10", "1,5", "10abc",
                            "1.5.2", "--1", "+-1", "1e", "e5", "+", "1d3", "1_0", "\xd9\xa1"})
     check_error("v 0 " + std::string(word) + " 0\n" + rest,
                 ":1: '" + std::string(word) + "' is not");
   check_error("v 0 0 0 nan\n" + rest, ":1: 'nan' is not a number");
-  check_error("v 0 1.1e30 0\n" + rest, ":1: '1.1e30' is beyond 1e30");
+  for (const char* word : {"1.1e30", "-1e31", "1e999", "-1e99999999999999999999", "1000e9999"})
+    check_error("v 0 " + std::string(word) + " 0\n" + rest,
+                ":1: '" + std::string(word) + "' is beyond 1e30");
 }
 
 void the_locale_means_nothing() {
@@ -161,7 +168,6 @@ void lines_and_blanks() {
   // Errors name the line as an editor counts it.
   check_error("v 0 0 \\\n 0\r\nv 1 0 0\rv x 0 0\n", "scene.obj:4: 'x' is not a number");
   check_error("v 0 0 \\\n x\n", "scene.obj:1: 'x' is not a number");
-  check_error(std::string("v 0 0 0\n\0\n", 10), "not a text file");
 }
 
 void other_statements() {
@@ -238,12 +244,10 @@ void missing_and_forbidden_material_files() {
                            "a.mtl /b.mtl", "sub/.."})
     check_error(std::string("\nmtllib ") + name + "\n", "scene.obj:2: mtllib '");
   CHECK(mkfifo(folder.file("fifo.mtl").c_str(), 0600) == 0);
-  CHECK_FAILS(folder.load("mtllib fifo.mtl\n"), Status::file, "fifo.mtl: not a regular file");
-  CHECK(symlink("/dev/zero", folder.file("zero.mtl").c_str()) == 0);
-  CHECK_FAILS(folder.load("mtllib zero.mtl\n"), Status::file, "zero.mtl: not a regular file");
+  check_error_in(folder, "\nmtllib fifo.mtl\n", "scene.obj:2: mtllib ");
+  check_error_in(folder, "mtllib fifo.mtl\n", "fifo.mtl: not a regular file");
   CHECK(mkdir(folder.file("dir.mtl").c_str(), 0700) == 0);
-  CHECK_FAILS(folder.load("mtllib dir.mtl\n"), Status::file,
-              "dir.mtl: cannot read: Is a directory");
+  check_error_in(folder, "mtllib dir.mtl\n", "dir.mtl: cannot read: Is a directory");
   folder.put("bad.mtl", "newmtl a\n\nKd x\n");
   CHECK_FAILS(folder.load("mtllib bad.mtl\n"), Status::scene, "bad.mtl:3: 'x' is not a number");
 }
