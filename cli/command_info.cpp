@@ -135,7 +135,7 @@ void append_json(std::string* text, const std::string& scene, const SceneReport&
 int run_info(const std::vector<std::string>& arguments, Output* output) {
   RunOptions options;
   bool as_json = false;
-  Arguments parser("info", "Print what is in a scene, without solving it.",
+  Arguments parser("info", "Print what is in a scene and what is doubtful in it, without solving it.",
                    "Areas count one side of each patch; a * marks parameters that differ from "
                    "their default.\n\nExample: hrad info room.obj --json");
   options.add_to(&parser, "info", RunOptions::a_scene);
@@ -145,8 +145,11 @@ int run_info(const std::vector<std::string>& arguments, Output* output) {
 
   Session session(options);
   session.load();
-  (as_json ? append_json : append_text)(&output->text(), options.scene(),
-                                        make_scene_report(&session), parameter_values(session));
+  const std::string obstacle = session.inspect();
+  SceneReport report = make_scene_report(&session);
+  if (!obstacle.empty()) report.diagnostics.push_back("can't be solved: " + obstacle);
+  (as_json ? append_json : append_text)(&output->text(), options.scene(), report,
+                                        parameter_values(session));
   return 0;
 }
 

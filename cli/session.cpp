@@ -89,6 +89,15 @@ void Session::load() {
     terminal_.say("loaded " + scene + ": " + std::to_string(patches()) + " patches");
 }
 
+std::string Session::inspect() {
+  const hrad_status status = hrad_partition(solver_);
+  if (status == HRAD_ERROR_SCENE) return hrad_error_message();
+  check(status);
+  signals::check();
+  warn_of_diagnostics();
+  return "";
+}
+
 int Session::solve() {
   hrad_status status = HRAD_OK;
   {

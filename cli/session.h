@@ -25,6 +25,8 @@ class Session {
   Terminal& terminal() { return terminal_; }
 
   void load();  // the options' scene
+  // The Initial Stage, for what only rays find out about a scene: "", or why it can't be solved.
+  std::string inspect();
   // exit_done or exit_not_converged; Interrupted when a signal stopped it.
   int solve();
 

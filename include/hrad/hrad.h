@@ -194,7 +194,7 @@ enum { HRAD_TWO_SIDED = 1, HRAD_BLOCKER = 2 };
 typedef struct hrad_material {
   size_t struct_size;
   const double *reflectance; /* bands values in [0,1); NULL: 0.5 in every band */
-  const double *emission;    /* bands values >= 0, W/m2; NULL: 0 */
+  const double *emission;    /* bands values in W/m2: 0, or 1e-30 to 1e30; NULL: 0 */
   int32_t flags;             /* HRAD_TWO_SIDED | HRAD_BLOCKER */
   const char *name;          /* may be NULL; copied */
 } hrad_material;
@@ -216,10 +216,10 @@ HRAD_API hrad_status hrad_add_patches(hrad_solver *solver, int64_t n_vertices, c
 
 /* [C] Loads an OBJ file with its MTL files (Kd reflectance, Ke emission; no material: Kd 0.5, Ke 0;
  * textures are ignored, counted and warned about; the comments "# hrad: two-sided" and "# hrad: blocker"
- * in a material's definition set its flags). Only rank 0 opens files. Parameter `sides` says how
- * windings are read (front | two-sided | flip). Needs bands = 1 or 3 (1: the mean of the three
- * channels). Adds to what is there. Errors: FILE; SCENE with file:line; STATE after hrad_partition;
- * MEMORY. Nothing is added then. */
+ * in a material's definition set its flags). MTL files are read from the scene's folder and those
+ * below it alone. Only rank 0 opens files. Parameter `sides` says how windings are read (front |
+ * two-sided | flip). Needs bands = 1 or 3 (1: the mean of the three channels). Adds to what is there.
+ * Errors: FILE; SCENE with file:line; STATE after hrad_partition; MEMORY. Nothing is added then. */
 HRAD_API hrad_status hrad_load_scene(hrad_solver *solver, const char *path);
 
 /* [C] Makes a built-in scene in an empty solver: building, classroom, each also as NAME-x10 and
@@ -259,12 +259,13 @@ HRAD_API hrad_status hrad_get_material(const hrad_solver *solver, int32_t materi
                                        double *emission, int32_t *flags);
 
 /* [L] Diagnostics of the scene: everything doubtful that was kept, repaired or dropped, one sentence
- * each, with its count. `index` from 0; ARGUMENT past the last. More may be known after hrad_solve
- * (the share of rays that meet back faces, sealed area). */
+ * each, with its count. `index` from 0; ARGUMENT past the last. More is known after hrad_partition
+ * (the share of rays that meet back faces, patches too small for the scene) and after hrad_solve
+ * (sealed area). */
 HRAD_API hrad_status hrad_get_diagnostic(const hrad_solver *solver, int64_t index, char *text,
                                          int64_t size, int64_t *needed);
 
-/* [C] Sets emission (W/m2, >= 0) or reflectance ([0,1)) of `count` patches from `first_patch` on;
+/* [C] Sets emission (W/m2: 0, or 1e-30 to 1e30) or reflectance ([0,1)) of `count` patches from `first_patch` on;
  * count*bands values, the bands of a patch side by side. Also after a solve: the mesh and the links
  * stay, and the next hrad_solve starts from B = E. Errors: ARGUMENT for ranges and values; STATE for
  * a blocker with emission. */
@@ -276,7 +277,8 @@ HRAD_API hrad_status hrad_set_reflectance(hrad_solver *solver, int64_t first_pat
 /* ---- partition and machine ------------------------------------------------------------------- */
 
 /* [C] Closes the scene, builds the visibility structure and gives every patch an owner (the paper's
- * Initial Stage). Optional: hrad_solve does it. Errors: SCENE for a scene without patches; MEMORY. */
+ * Initial Stage). Optional: hrad_solve does it. Errors: SCENE for a scene without patches,
+ * smaller than 1e-8, larger than 1e11 or more than 1e10 of its radii from the origin; MEMORY. */
 HRAD_API hrad_status hrad_partition(hrad_solver *solver);
 
 /* [L] The rank that owns a patch: 0 in a solver made by hrad_create. Errors: ARGUMENT for a patch out

@@ -98,7 +98,9 @@ class MaterialFiles {
       if (!read_file(resolved, text)) return false;
     } catch (const Error& error) {
       if (error.status() != Status::file) throw;
-      fail_here(error.what());
+      // The reason, which stands behind the path.
+      const std::string reason = error.what(), given = folder_ + name;
+      fail_here(quoted(name) + reason.substr(resolved.empty() ? given.size() : resolved.size()));
     }
     read_mtl(folder_ + name, text, library_);
     return true;

@@ -12,6 +12,9 @@ namespace {
 // A surface that reflects everything has no equilibrium; this is the nearest the solver takes.
 constexpr double largest_reflectance = 0.99;
 
+// Radiosity is kept in single precision; the C interface refuses less.
+constexpr double smallest_emission = 1e-30;
+
 // Counts an event and keeps the place of the first one.
 void note(int64_t& count, std::string& first, const ObjLexer& lexer) {
   if (count++ == 0) first = lexer.here();
@@ -105,6 +108,11 @@ void read_mtl(const std::string& path, std::string_view text, MtlLibrary& librar
       if (!current) lexer.fail_here(std::string(keyword) + " before the first newmtl");
       std::array<double, 3> values = color(lexer);
       if (keyword == "Ke") {
+        for (double& value : values)
+          if (value > 0 && value < smallest_emission) {
+            value = 0;
+            note(library.vanished, library.first_vanished, lexer);
+          }
         current->emission = values;
         refuse_shining_blocker(*current, lexer);
         continue;
@@ -134,7 +142,7 @@ void read_mtl(const std::string& path, std::string_view text, MtlLibrary& librar
       note(library.unknown, library.first_unknown, lexer);
     }
   }
-  if (lexer.vanished() > 0 && library.vanished == 0)
+  if (lexer.vanished() > 0 && library.first_vanished.empty())
     library.first_vanished = lexer.first_vanished();
   library.vanished += lexer.vanished();
 }

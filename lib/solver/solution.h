@@ -10,6 +10,7 @@
 #include "solver/solver.h"
 #include "stages/convergence.h"
 #include "stages/state.h"
+#include "visibility/inspection.h"
 
 namespace hrad {
 
@@ -19,6 +20,7 @@ struct Solver::Solution {
   std::unique_ptr<ThreadTeam> team;
   std::unique_ptr<VisibilityEngine> engine;
   std::unique_ptr<Exposure> exposure;
+  Inspection inspection;
   State state;
 
   // How far the solve has come, so that it can stop anywhere and go on to the same bits.

@@ -38,6 +38,7 @@ void Solver::partition() {
   solution->engine =
       make_visibility_engine(scene_, params_.visibility, params_.instruction_set, *solution->team);
   solution->exposure = std::make_unique<Exposure>(scene_, *solution->engine);
+  solution->inspection = inspect(scene_, *solution->engine, *solution->exposure);
   solution_ = std::move(solution);
   stats_.seconds_initial +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -9,13 +9,15 @@
 
 #include "base/error.h"
 #include "scene/load.h"
-#include "solver/solver.h"
+#include "solver/solution.h"
 
 namespace hrad {
 namespace {
 
 // Coordinates beyond this would overflow when areas are multiplied.
 constexpr double kLargestCoordinate = 1e30;
+// Radiosity is kept in single precision, which holds these a million times reflected.
+constexpr double kSmallestEmission = 1e-30, kLargestEmission = 1e30;
 // Patches and vertices are named by 32-bit indices.
 constexpr int64_t kMostPatches = std::numeric_limits<int32_t>::max();
 // Share of measuring rays that meet black backs above which windings are probably wrong.
@@ -85,10 +87,11 @@ void check_reflectance(double value, const char* owner, int64_t number, size_t b
 }
 
 void check_emission(double value, const char* owner, int64_t number, size_t band) {
-  if (!(value >= 0 && value <= std::numeric_limits<double>::max()))
+  if (value != 0 && !(value >= kSmallestEmission && value <= kLargestEmission))
     fail(Status::argument,
-         "the emission of %s %lld in band %zu is %g W/m2: it must be finite and at least 0", owner,
-         static_cast<long long>(number), band, value);
+         "the emission of %s %lld in band %zu is %g W/m2: it must be 0, or from %g to %g (in "
+         "another unit of power if need be)",
+         owner, static_cast<long long>(number), band, value, kSmallestEmission, kLargestEmission);
 }
 
 void check_patch_range(const Scene& scene, int64_t first, int64_t count) {
@@ -259,17 +262,28 @@ std::vector<std::string> Solver::diagnostics() const {
   std::vector<std::string> all = scene_.diagnostics;
   if (scene_.patch_count() > 0 && !emits(scene_))
     all.push_back(no_emitter);
-  if (solved() && stats_.back_share > kDoubtfulBackShare)
+  if (!solution_) return all;
+  const Inspection& inspection = solution_->inspection;
+  const Stats known = stats();
+  // Measured more finely by a solve, but then only where light goes.
+  const double back_share = std::max(inspection.back_share, known.back_share);
+  if (back_share > kDoubtfulBackShare)
+    all.push_back(
+        format("%.1f %% of the rays that look for it meet the backs of one-sided patches: if these "
+               "are the wrong way round or mean sheets, load with the parameter sides = flip or "
+               "two-sided (hrad: --flip, --two-sided)",
+               100 * back_share));
+  if (inspection.unresolved)
     all.push_back(format(
-        "%.1f %% of the rays that measured met the backs of one-sided patches: if these are the "
-        "wrong way round or mean sheets, load with the parameter sides = flip or two-sided "
-        "(hrad: --flip, --two-sided)",
-        100 * stats_.back_share));
-  if (solved() && stats_.sealed_area > 0)
+        "%lld patches are smaller than what can be told apart in a scene of this size, %g %s "
+        "(first: patch %lld): is there something far away that doesn't belong to it?",
+        static_cast<long long>(inspection.unresolved), inspection.smallest,
+        params_.unit.c_str(), static_cast<long long>(inspection.first_unresolved)));
+  if (known.sealed_area > 0)
     all.push_back(
         format("%g of %g %s^2 of surface are sealed: pressed against another surface or "
                "inside a solid, they see nothing",
-               stats_.sealed_area, stats_.area, params_.unit.c_str()));
+               known.sealed_area, known.area, params_.unit.c_str()));
   return all;
 }
 

@@ -9,6 +9,8 @@
 namespace hrad {
 namespace {
 
+// Parallel surfaces closer than this share of the scene's radius are at the same height.
+constexpr double same_height = 1e-9;
 // Surfaces closer than this share of the scene's radius are pressed against each other.
 constexpr double contact_distance = 1e-6;
 
@@ -34,11 +36,46 @@ bool same_corners(const Triangle& a, const Triangle& b) {
   return among(a.a) && among(a.b) && among(a.c);
 }
 
+// Two triangles in about one plane have more in common than an edge: none of their edges separates
+// them, by at least -margin.
+bool overlap(const Triangle& s, const Triangle& t, Vec3 normal, double margin) {
+  const auto separated_by_edge_of = [&](const Triangle& a, const Triangle& b) {
+    const Vec3 corners[3] = {a.a, a.b, a.c};
+    // Inward, whichever way round the triangle runs.
+    const double way = dot(a.area_vector(), normal) > 0 ? 1 : -1;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 from = corners[k];
+      const Vec3 inward = normalized(cross(normal, corners[(k + 1) % 3] - from)) * way;
+      if (std::max({dot(b.a - from, inward), dot(b.b - from, inward), dot(b.c - from, inward)}) <=
+          margin)
+        return true;
+    }
+    return false;
+  };
+  return !separated_by_edge_of(s, t) && !separated_by_edge_of(t, s);
+}
+
+bool emits(const Scene& scene, int64_t patch) {
+  const double* emission = &scene.emission[static_cast<size_t>(patch) * scene.bands];
+  return std::any_of(emission, emission + scene.bands, [](double e) { return e > 0; });
+}
+
+// Of two parallel surfaces that are pressed together, which lies on the other: the higher one, seen
+// from the side in question. Without a difference a sheet with two fronts lies on a surface with
+// one, a lamp on what is dark, and otherwise the first of the two is seen, as with duplicates.
+bool lies_on(const Scene& scene, int64_t q, int64_t p, double height, double tie) {
+  if (std::fabs(height) > tie) return height > 0;
+  const bool q_sheet = scene.has(q, patch_two_sided), p_sheet = scene.has(p, patch_two_sided);
+  if (q_sheet != p_sheet) return q_sheet;
+  const bool q_emits = emits(scene, q), p_emits = emits(scene, p);
+  if (q_emits != p_emits) return q_emits;
+  return q < p;
+}
+
 // The point lies over the triangle, seen along its normal (length 1).
 bool over(const Triangle& t, Vec3 normal, Vec3 p) {
   return dot(cross(t.b - t.a, p - t.a), normal) >= 0 &&
-         dot(cross(t.c - t.b, p - t.b), normal) >= 0 &&
-         dot(cross(t.a - t.c, p - t.c), normal) >= 0;
+         dot(cross(t.c - t.b, p - t.b), normal) >= 0 && dot(cross(t.a - t.c, p - t.c), normal) >= 0;
 }
 
 // A cosine direction for inside_solid: any spread of directions serves.
@@ -54,6 +91,7 @@ Exposure::Exposure(const Scene& scene, const VisibilityEngine& engine)
     : scene_(scene), engine_(engine), solids_(find_solids(scene)) {
   const int64_t patches = scene.patch_count();
   const double contact = contact_distance * engine.radius();
+  const double tie = same_height * engine.radius();
   std::vector<Box> boxes(patches);
   for (int64_t p = 0; p < patches; ++p)
     if (!scene.has(p, patch_dropped)) boxes[p] = box_of(scene.triangle(p));
@@ -79,13 +117,19 @@ Exposure::Exposure(const Scene& scene, const VisibilityEngine& engine)
           if (q == p) return;
           const Triangle other = scene.triangle(q);
           const Vec3 other_normal = normalized(other.area_vector());
-          // A cover turns its front against this side; a two-sided one has a front both ways.
           const double facing = dot(other_normal, normal);
-          if (facing > -0.999999 && !(scene.has(q, patch_two_sided) && facing > 0.999999)) return;
+          if (std::fabs(facing) < 0.999999) return;
           if (same_corners(triangle, other)) return;  // a sheet, not a contact
-          for (Vec3 corner : {other.a, other.b, other.c})
-            if (std::fabs(dot(corner - triangle.a, normal)) > contact) return;
-          covers_.push_back(q);
+          double height = 0;
+          for (Vec3 corner : {other.a, other.b, other.c}) {
+            const double h = dot(corner - triangle.a, normal);
+            if (std::fabs(h) > contact) return;
+            height += h / 3;
+          }
+          // A cover turns its front against this side, or lies on it as a rug on a floor.
+          if (facing < 0 ||
+              (lies_on(scene, q, p, height, tie) && overlap(triangle, other, normal, contact)))
+            covers_.push_back(q);
         });
         std::sort(covers_.begin() + cover_begin, covers_.end());
         const auto solid_begin = static_cast<std::ptrdiff_t>(enclosing_.size());
@@ -124,9 +168,8 @@ bool Exposure::inside_solid(int64_t patch, int32_t side, Vec3 point) const {
   bool in_a_box = false;
   for (int64_t c = first_enclosing_[k]; c < first_enclosing_[k + 1]; ++c) {
     const Box& box = solids_.box[enclosing_[c]];
-    in_a_box = in_a_box || (origin.x > box.low.x && origin.x < box.high.x &&
-                            origin.y > box.low.y && origin.y < box.high.y &&
-                            origin.z > box.low.z && origin.z < box.high.z);
+    in_a_box = in_a_box || (origin.x > box.low.x && origin.x < box.high.x && origin.y > box.low.y &&
+                            origin.y < box.high.y && origin.z > box.low.z && origin.z < box.high.z);
   }
   if (!in_a_box) return false;
   // Inside means: the nearest surface shows its back, and it bounds a solid. Most of three rays, so

@@ -24,9 +24,10 @@ class Exposure {
 
   // The point (in the scene's coordinates, on the patch) is sealed on this side. Any thread.
   bool sealed(int64_t patch, int32_t side, Vec3 point) const;
+  // The same by contact alone, solids left aside.
+  bool pressed(int64_t patch, int32_t side, Vec3 point) const;
 
  private:
-  bool pressed(int64_t patch, int32_t side, Vec3 point) const;
   bool inside_solid(int64_t patch, int32_t side, Vec3 point) const;
 
   const Scene& scene_;

@@ -46,6 +46,14 @@ void measure_scene(const Scene& scene, Vec3& center, double& radius) {
   if (!(radius > 1e-8 && radius < 1e11))
     fail(Status::scene, "the scene's size of %g lies outside 1e-8 to 1e11: choose another unit",
          radius);
+  // Below that, patches and points on them are no longer where they should be.
+  constexpr double most_radii_from_origin = 1e10;
+  const double distance = length(center);
+  if (distance > most_radii_from_origin * radius)
+    fail(Status::scene,
+         "the scene has a size of %g and lies %g from the origin: too few digits are left for its "
+         "coordinates; move it to the origin",
+         radius, distance);
 }
 
 std::unique_ptr<VisibilityEngine> make_visibility_engine(const Scene& scene,

@@ -245,9 +245,9 @@ void missing_and_forbidden_material_files() {
     check_error(std::string("\nmtllib ") + name + "\n", "scene.obj:2: mtllib '");
   CHECK(mkfifo(folder.file("fifo.mtl").c_str(), 0600) == 0);
   check_error_in(folder, "\nmtllib fifo.mtl\n", "scene.obj:2: mtllib ");
-  check_error_in(folder, "mtllib fifo.mtl\n", "fifo.mtl: not a regular file");
+  check_error_in(folder, "mtllib fifo.mtl\n", "mtllib 'fifo.mtl': not a regular file");
   CHECK(mkdir(folder.file("dir.mtl").c_str(), 0700) == 0);
-  check_error_in(folder, "mtllib dir.mtl\n", "dir.mtl: cannot read: Is a directory");
+  check_error_in(folder, "mtllib dir.mtl\n", "mtllib 'dir.mtl': cannot read: Is a directory");
   folder.put("bad.mtl", "newmtl a\n\nKd x\n");
   CHECK_FAILS(folder.load("mtllib bad.mtl\n"), Status::scene, "bad.mtl:3: 'x' is not a number");
 }

@@ -105,14 +105,28 @@ void sheet_twins_are_not_sealed() {
   CHECK(!s.sealed_at({0.2, 0.3, 1}, down));
 }
 
-// Turned-away surfaces in one plane touch nothing: a floor of two layers seen from above.
-void coplanar_fronts_of_the_same_side_are_not_sealed() {
-  Scene scene;
-  add_triangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  add_triangle(scene, {-1, -1, 0}, {3, -1, 0}, {-1, 3, 0});
-  const Setup s(std::move(scene));
-  CHECK(!s.exposure.sealed(0, 0, {0.2, 0.2, 0}));
-  CHECK(!s.exposure.sealed(1, 0, {0.2, 0.2, 0}));
+// A floor of two layers seen from above: only one of them sees. The higher one; without a
+// difference a lamp, then a sheet, then the first.
+void of_two_layers_one_is_sealed() {
+  const auto layers = [](double height, bool lamp) {
+    Scene scene;
+    add_triangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    add_triangle(scene, {-1, -1, height}, {3, -1, height}, {-1, 3, height});
+    if (lamp) scene.emission[static_cast<size_t>(scene.bands)] = 1;
+    return scene;
+  };
+  const Vec3 in_both{0.2, 0.2, 0}, in_one{0.7, 0.7, 0};
+  for (double height : {0.0, -1e-7}) {
+    const Setup s(layers(height, false));
+    CHECK(!s.exposure.can_be_sealed(0, 0));
+    CHECK(s.exposure.sealed(1, 0, in_both));
+    CHECK(!s.exposure.sealed(1, 0, in_one));
+  }
+  for (const auto& [height, lamp] : {std::pair(1e-7, false), std::pair(0.0, true)}) {
+    const Setup s(layers(height, lamp));
+    CHECK(s.exposure.sealed(0, 0, in_both));
+    CHECK(!s.exposure.can_be_sealed(1, 0));
+  }
 }
 
 void neighbours_in_a_room_seal_nothing() {
@@ -124,6 +138,7 @@ void neighbours_in_a_room_seal_nothing() {
     for (int k = 0; k < 50; ++k) {
       const Triangle t = s.scene.triangle(p);
       CHECK(!s.exposure.sealed(p, 0, point_on(t, random)));
+      CHECK(!s.exposure.can_be_sealed(p, 0));
       CHECK(!s.exposure.sealed(p, 0, t.a) && !s.exposure.sealed(p, 0, (t.a + t.b) * 0.5));
     }
 }
@@ -213,7 +228,7 @@ int main() {
       HRAD_TEST(a_gap_is_no_contact),
       HRAD_TEST(walls_in_contact_are_sealed),
       HRAD_TEST(sheet_twins_are_not_sealed),
-      HRAD_TEST(coplanar_fronts_of_the_same_side_are_not_sealed),
+      HRAD_TEST(of_two_layers_one_is_sealed),
       HRAD_TEST(neighbours_in_a_room_seal_nothing),
       HRAD_TEST(what_lies_inside_a_solid_is_sealed),
       HRAD_TEST(an_open_box_has_no_inside),

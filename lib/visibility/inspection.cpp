@@ -1,0 +1,105 @@
+// A few thousand rays from the fronts of surfaces. Floor 4 (visibility).
+#include "visibility/inspection.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/frame.h"
+#include "base/hash.h"
+
+namespace hrad {
+
+namespace {
+
+constexpr int rays_of_a_half = 2048;
+// A patch of this many offsets is a point to the rays.
+constexpr double smallest_in_offsets = 4;
+
+bool exchanges(const Scene& scene, int64_t patch) {
+  return !scene.has(patch, patch_dropped) && !scene.has(patch, patch_blocker);
+}
+
+bool emits(const Scene& scene, int64_t patch) {
+  const double* emission = &scene.emission[static_cast<size_t>(patch) * scene.bands];
+  return std::any_of(emission, emission + scene.bands, [](double e) { return e > 0; });
+}
+
+// Shoots from patches drawn in proportion to their areas, given as running sums.
+class Rays {
+ public:
+  Rays(const Scene& scene, const VisibilityEngine& engine, const Exposure& exposure)
+      : scene_(scene), engine_(engine), exposure_(exposure) {}
+
+  // Points inside solids are left out, as nothing is seen there, unless told otherwise: a lamp in
+  // an inside-out room is inside a solid.
+  void shoot(const std::vector<int64_t>& patches, const std::vector<double>& area_until,
+             bool also_in_solids) {
+    if (patches.empty() || !(area_until.back() > 0)) return;
+    for (int k = 0; k < rays_of_a_half; ++k) {
+      const uint64_t h = mix(static_cast<uint64_t>(k), 0x696e7370u);
+      const double at = (k + unit_interval(h)) / rays_of_a_half * area_until.back();
+      const auto found = std::upper_bound(area_until.begin(), area_until.end(), at);
+      const size_t last = patches.size() - 1;
+      shoot_from(patches[std::min(static_cast<size_t>(found - area_until.begin()), last)],
+                 also_in_solids, h);
+    }
+  }
+
+  double back_share() const { return rays_ ? static_cast<double>(backs_) / rays_ : 0; }
+
+ private:
+  void shoot_from(int64_t patch, bool also_in_solids, uint64_t h) {
+    const Triangle triangle = scene_.triangle(patch);
+    double u = unit_interval(mix(h, 1)), v = unit_interval(mix(h, 2));
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
+    const Vec3 point = triangle.at(u, v), normal = normalized(triangle.area_vector());
+    if (also_in_solids ? exposure_.pressed(patch, 0, point) : exposure_.sealed(patch, 0, point))
+      return;
+    const Vec3 direction =
+        Frame(normal).cosine_direction(unit_interval(mix(h, 3)), unit_interval(mix(h, 4)));
+    const Hit hit = engine_.nearest(point + normal * engine_.offset(), direction, 0);
+    ++rays_;
+    backs_ += hit.patch >= 0 && hit.back && exchanges(scene_, hit.patch) &&
+              !scene_.has(hit.patch, patch_two_sided);
+  }
+
+  const Scene& scene_;
+  const VisibilityEngine& engine_;
+  const Exposure& exposure_;
+  int64_t rays_ = 0, backs_ = 0;
+};
+
+}  // namespace
+
+Inspection inspect(const Scene& scene, const VisibilityEngine& engine, const Exposure& exposure) {
+  Inspection result;
+  result.smallest = smallest_in_offsets * engine.offset();
+  std::vector<int64_t> all, emitters;
+  std::vector<double> area_of_all, area_of_emitters;
+  const auto add = [](double area, std::vector<double>& until) {
+    until.push_back((until.empty() ? 0 : until.back()) + area);
+  };
+  for (int64_t patch = 0; patch < scene.patch_count(); ++patch) {
+    if (scene.has(patch, patch_dropped)) continue;
+    const Triangle t = scene.triangle(patch);
+    const double longest = std::max({length(t.b - t.a), length(t.c - t.b), length(t.a - t.c)});
+    if (longest <= result.smallest && result.unresolved++ == 0) result.first_unresolved = patch;
+    if (!exchanges(scene, patch)) continue;
+    const double area = length(t.area_vector()) / 2;
+    all.push_back(patch);
+    add(area, area_of_all);
+    if (!emits(scene, patch)) continue;
+    emitters.push_back(patch);
+    add(area, area_of_emitters);
+  }
+  Rays rays(scene, engine, exposure);
+  rays.shoot(emitters, area_of_emitters, true);
+  rays.shoot(all, area_of_all, false);
+  result.back_share = rays.back_share();
+  return result;
+}
+
+}  // namespace hrad
