@@ -1,0 +1,216 @@
+// Memory that ends: the n-th allocation of a small solve fails, for every n. The call says MEMORY
+// and why, nothing is lost, and the same solver then gives the same bits as one that never failed.
+#include <hrad/hrad.h>
+#include <stdlib.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <new>
+#include <string>
+
+#include "support/check.h"
+
+namespace {
+
+std::atomic<int64_t> allocations_left{-1};  // before one fails; negative: none fails
+std::atomic<int64_t> living{0};             // blocks that were not given back
+
+bool must_fail() {
+  if (allocations_left.load() < 0) return false;
+  // The one that reaches 0 fails, and no other: what follows finds memory again.
+  return allocations_left.fetch_sub(1) == 0;
+}
+
+void* allocate(size_t size, size_t alignment) {
+  // aligned_alloc wants a multiple of the alignment.
+  void* block = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
+  if (block) ++living;
+  return block;
+}
+
+void give_back(void* block) {
+  if (!block) return;
+  --living;
+  std::free(block);
+}
+
+void* allocate_or_throw(size_t size, size_t alignment) {
+  void* block = must_fail() ? nullptr : allocate(size, alignment);
+  if (!block) throw std::bad_alloc();
+  return block;
+}
+
+constexpr size_t usual = alignof(std::max_align_t);
+
+}  // namespace
+
+void* operator new(size_t size) { return allocate_or_throw(size, usual); }
+void* operator new[](size_t size) { return allocate_or_throw(size, usual); }
+void* operator new(size_t size, std::align_val_t a) {
+  return allocate_or_throw(size, static_cast<size_t>(a));
+}
+void* operator new[](size_t size, std::align_val_t a) {
+  return allocate_or_throw(size, static_cast<size_t>(a));
+}
+// Who asks like this can do without: sorting, for one.
+void* operator new(size_t size, const std::nothrow_t&) noexcept { return allocate(size, usual); }
+void* operator new[](size_t size, const std::nothrow_t&) noexcept { return allocate(size, usual); }
+void operator delete(void* block) noexcept { give_back(block); }
+void operator delete[](void* block) noexcept { give_back(block); }
+void operator delete(void* block, size_t) noexcept { give_back(block); }
+void operator delete[](void* block, size_t) noexcept { give_back(block); }
+void operator delete(void* block, std::align_val_t) noexcept { give_back(block); }
+void operator delete[](void* block, std::align_val_t) noexcept { give_back(block); }
+void operator delete(void* block, size_t, std::align_val_t) noexcept { give_back(block); }
+void operator delete[](void* block, size_t, std::align_val_t) noexcept { give_back(block); }
+
+namespace {
+
+struct Folder {
+  std::string path;
+  Folder() {
+    char name[] = "/tmp/hrad_test_allocation_XXXXXX";
+    CHECK(mkdtemp(name) != nullptr);
+    path = name;
+    std::ofstream(path + "/a.mtl") << "newmtl lamp\nKd 0.5\nKe 1 1 1\nmap_Kd x.png\n";
+    std::ofstream(path + "/a.obj") << "mtllib a.mtl none.mtl\nv 0.4 0.4 0.9\nv 0.4 0.6 0.9\n"
+                                      "v 0.6 0.6 0.9\nv 0.6 0.4 0.9\nusemtl lamp\nf 1 2 3 4\n"
+                                      "f 1 2 2\nf 1 2 3\nusemtl none\nf 4 3 2\nl 1 2\n";
+  }
+  ~Folder() {
+    if (std::system(("rm -rf '" + path + "'").c_str()) != 0) std::perror("rm");
+  }
+};
+
+// What a program does with a solver, step by step.
+class Program {
+ public:
+  explicit Program(const Folder& folder)
+      : scene_(folder.path + "/a.obj"), table_(folder.path + "/a.csv") {}
+  ~Program() { hrad_destroy(&solver_); }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  static constexpr int steps = 16;
+
+  // A new solver with which the steps before this one are done.
+  void begin(int number) {
+    hrad_destroy(&solver_);
+    for (int i = 0; i < number; ++i) CHECK_EQUAL(step(i), HRAD_OK);
+  }
+
+  hrad_status step(int number) {
+    static const double xyz[24] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0,
+                                   0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
+    static const int64_t vertex[36] = {0, 1, 2, 0, 2, 3, 4, 7, 6, 4, 6, 5, 0, 4, 5, 0, 5, 1,
+                                       1, 5, 6, 1, 6, 2, 2, 6, 7, 2, 7, 3, 3, 7, 4, 3, 4, 0};
+    static const double middle[3] = {0.5, 0.5, 0.5}, uv[2] = {0.2, 0.2};
+    static const int64_t patch = 1;
+    double out[64];
+    char text[256];
+    switch (number) {
+      case 0:
+        return hrad_create(&solver_);
+      case 1:
+        // No smaller elements than the patches: the solve is to be made a thousand times.
+        return hrad_set_text(solver_, "min_area", "10");
+      case 2:
+        return hrad_set_text(solver_, "tolerance", "1");
+      case 3:
+        return hrad_set_int(solver_, "threads", 1);
+      case 14:
+        return hrad_set_text(solver_, "partition", "grid");
+      case 4:
+        return hrad_add_patches(solver_, 8, xyz, 12, vertex, nullptr);
+      case 5:
+        return hrad_load_scene(solver_, scene_.c_str());
+      case 6:
+        return hrad_solve(solver_);
+      case 7:
+        return hrad_query_patches(solver_, HRAD_RADIOSITY, 0, 0, 12, out);
+      case 8:
+        return hrad_query_points(solver_, HRAD_RADIOSITY, 0, 1, &patch, uv, out);
+      case 9:
+        return hrad_query_sensors(solver_, 1, middle, middle, out, nullptr);
+      case 10:
+        return hrad_get_diagnostic(solver_, 0, text, sizeof text, nullptr);
+      case 11:
+        return hrad_describe_machine(solver_, text, sizeof text, nullptr);
+      case 12:
+        return hrad_get_text(solver_, "linking", text, sizeof text, nullptr);
+      case 13:
+        return hrad_export(solver_, table_.c_str());
+      default:
+        return hrad_state_hash(solver_, &hash_);
+    }
+  }
+
+  uint64_t hash() const { return hash_; }
+  hrad_solver* solver() const { return solver_; }
+
+ private:
+  std::string scene_, table_;
+  hrad_solver* solver_ = nullptr;
+  uint64_t hash_ = 0;
+};
+
+// The same steps with nothing failing.
+uint64_t hash_without_failure(const Folder& folder) {
+  Program program(folder);
+  for (int i = 0; i < Program::steps; ++i) CHECK_EQUAL(program.step(i), HRAD_OK);
+  return program.hash();
+}
+
+// Repeats one step on the same solver: the first allocation fails, then the second, until it makes
+// fewer than that and succeeds. The number of failures.
+int64_t fail_every_allocation(Program& program, int number) {
+  for (int64_t n = 0;; ++n) {
+    allocations_left = n;
+    const hrad_status status = program.step(number);
+    const bool failed = allocations_left.exchange(-1) < 0;
+    try {
+      if (status == HRAD_OK && !failed) return n;
+      CHECK(failed);
+      if (status == HRAD_OK) {
+        program.begin(number);  // it was done without: giving back spare memory, for one
+        continue;
+      }
+      CHECK_EQUAL(status, HRAD_ERROR_MEMORY);
+      CHECK(std::string(hrad_error_message()).find("memory") != std::string::npos);
+      if (number == 0) continue;  // there is no solver yet
+      int64_t patches = -1;
+      CHECK_EQUAL(hrad_scene_size(program.solver(), &patches, nullptr), HRAD_OK);
+      CHECK_EQUAL(patches, number <= 4 ? 0 : number == 5 ? 12 : 17);
+    } catch (const hrad_test::Failure& failure) {
+      throw hrad_test::Failure("step " + std::to_string(number) + ", allocation " +
+                               std::to_string(n) + ": " + failure.what());
+    }
+  }
+}
+
+void every_allocation_may_fail() {
+  const Folder folder;
+  const uint64_t hash = hash_without_failure(folder);
+  const int64_t before = living;
+  CHECK(hash == hash_without_failure(folder));
+  CHECK_EQUAL(living.load(), before);
+  {
+    Program program(folder);
+    int64_t failures = 0;
+    for (int i = 0; i < Program::steps; ++i) failures += fail_every_allocation(program, i);
+    CHECK(failures > 500);  // otherwise nothing was tested
+    CHECK(program.hash() == hash);
+  }
+  CHECK_EQUAL(living.load(), before);
+}
+
+}  // namespace
+
+int main() {
+  // A machine that is quickly looked at: every solve does that.
+  setenv("HWLOC_SYNTHETIC", "pack:1 core:2 pu:1", 1);
+  const CMUnitTest tests[] = {HRAD_TEST(every_allocation_may_fail)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
