@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "base/error.h"
 
@@ -42,10 +43,17 @@ WholeFile::WholeFile(const std::string& path) : path_(path), target_(path) {
     fail_here("create", errno == ENOENT ? EISDIR : errno);
   }
   buffer_.reserve(buffer_bytes);
-  create_temporary(folder_of(target_), mode);
+  try {
+    create_temporary(folder_of(target_), mode);
+  } catch (...) {
+    discard();  // no destructor runs for what was not made
+    throw;
+  }
 }
 
-WholeFile::~WholeFile() {
+WholeFile::~WholeFile() { discard(); }
+
+void WholeFile::discard() {
   if (file_ >= 0) ::close(file_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
@@ -58,11 +66,11 @@ void WholeFile::fail_here(const char* step, int error) const {
 void WholeFile::create_temporary(const std::string& folder, mode_t mode) {
   for (int attempt = 0; attempt < name_attempts; ++attempt) {
     // A name of its own length: the target's may already be as long as the file system allows.
-    const std::string name = folder + (folder.back() == '/' ? "" : "/") +
-                             format(".hrad-%ld-%d.tmp", static_cast<long>(::getpid()), attempt);
+    std::string name = folder + (folder.back() == '/' ? "" : "/") +
+                       format(".hrad-%ld-%d.tmp", static_cast<long>(::getpid()), attempt);
     file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ >= 0) {
-      temporary_ = name;
+      temporary_ = std::move(name);  // without allocation: from here it is removed
       if (mode != 0 && ::fchmod(file_, mode) != 0) fail_here("keep the mode", errno);
       return;
     }

@@ -29,6 +29,7 @@ class WholeFile {
   void commit();  // once, as the last call; finishes what is not
 
  private:
+  void discard();  // what is not committed
   [[noreturn]] void fail_here(const char* step, int error) const;
   void create_temporary(const std::string& folder, mode_t mode);
   void write_out(const char* data, size_t size);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <string>
@@ -203,6 +204,10 @@ void every_allocation_may_fail() {
     CHECK(failures > 500);  // otherwise nothing was tested
     CHECK(program.hash() == hash);
   }
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path))
+    files += entry.is_regular_file();
+  CHECK_EQUAL(files, 3);  // the scene and the table: no temporaries
   CHECK_EQUAL(living.load(), before);
 }
 
