@@ -34,6 +34,13 @@ void Scene::add_patch(int32_t a, int32_t b, int32_t c, int32_t material_number,
   reflectance.insert(reflectance.end(), m.reflectance.begin(), m.reflectance.end());
 }
 
+int64_t Scene::bytes() const {
+  return static_cast<int64_t>(
+      vertices.capacity() * sizeof(Vec3) + corners.capacity() * sizeof corners[0] +
+      material.capacity() * sizeof material[0] + face.capacity() * sizeof face[0] +
+      flags.capacity() + (emission.capacity() + reflectance.capacity()) * sizeof(double));
+}
+
 Box Scene::bounds() const {
   Box box;
   for (const auto& c : corners)

@@ -47,6 +47,7 @@ struct Scene {
   // face < 0: the patch's own number.
   void add_patch(int32_t a, int32_t b, int32_t c, int32_t material_number, int64_t face_number = -1);
   Box bounds() const;
+  int64_t bytes() const;  // of its arrays
 };
 
 }  // namespace hrad

@@ -11,9 +11,13 @@
 #include "machine/topology.h"
 #include "solver/export.h"
 #include "solver/solution.h"
+#include "stages/state_memory.h"
 
 namespace hrad {
 namespace {
+
+// What a ray engine takes for a patch while it is built.
+constexpr int64_t kEngineBytesOfPatch = 150;
 
 int64_t peak_memory() {
   rusage usage{};
@@ -32,11 +36,19 @@ void Solver::partition() {
     fail(Status::scene, "the scene has no patches: load, make or add some before solving");
   const auto start = std::chrono::steady_clock::now();
   auto solution = std::make_unique<Solution>(scene_);
+  MemoryBudget& memory = solution->state.memory;
+  memory.set_limit(params_.max_memory);
+  memory.take(scene_.bytes(), "the patches of the scene");
+  memory.take(bytes_of(solution->state), "the elements of the patches");
+  // Until its true size is known.
+  const int64_t expected = scene_.patch_count() * kEngineBytesOfPatch;
+  memory.take(expected, "the structure for rays");
   const PoolPlan plan =
       plan_pool(read_topology(), params_.threads, params_.smt != 0, params_.bind != 0);
   solution->team = std::make_unique<ThreadTeam>(plan.threads, plan.binding);
   solution->engine =
       make_visibility_engine(scene_, params_.visibility, params_.instruction_set, *solution->team);
+  memory.take(solution->engine->bytes() - expected, "the structure for rays");
   solution->exposure = std::make_unique<Exposure>(scene_, *solution->engine);
   solution->inspection = inspect(scene_, *solution->engine, *solution->exposure);
   solution_ = std::move(solution);

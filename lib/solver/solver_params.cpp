@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "solver/solver.h"
+#include "solver/solution.h"
 
 namespace hrad {
 namespace {
@@ -50,6 +50,7 @@ void Solver::set_int(const std::string& name, int64_t value) {
   check_change(row, params_, next, scene_, solution_ != nullptr, begun_);
   params_ = std::move(next);
   scene_.bands = static_cast<int>(params_.bands);
+  if (solution_) solution_->state.memory.set_limit(params_.max_memory);
 }
 
 void Solver::set_double(const std::string& name, double value) {
@@ -65,6 +66,7 @@ void Solver::set_text(const std::string& name, const std::string& value) {
   check_change(row, params_, next, scene_, solution_ != nullptr, begun_);
   params_ = std::move(next);
   scene_.bands = static_cast<int>(params_.bands);
+  if (solution_) solution_->state.memory.set_limit(params_.max_memory);
 }
 
 }  // namespace hrad

@@ -78,6 +78,13 @@ void warn(const Log& log, const Scene& scene, size_t before) {
     log.write(Log::warning, scene.diagnostics[i]);
 }
 
+// MEMORY when a scene alone is over the limit.
+void check_memory(const Scene& scene, int64_t limit) {
+  MemoryBudget budget;
+  budget.set_limit(limit);
+  budget.take(scene.bytes(), "the patches of the scene");
+}
+
 // owner and number: whose value it is, as "patch" 7.
 void check_reflectance(double value, const char* owner, int64_t number, size_t band) {
   if (!(value >= 0 && value < 1))
@@ -194,6 +201,7 @@ void Solver::add_patches(int64_t n_vertices, const double* xyz, int64_t n_triang
     scene_.add_patch(corner(3 * i), corner(3 * i + 1), corner(3 * i + 2),
                      material ? material[i] : 0);
   check_patches(scene_, addition.first_patch());
+  check_memory(scene_, params_.max_memory);
   warn(log_, scene_, diagnostics);
   addition.keep();
 }
@@ -212,6 +220,7 @@ void Solver::load_scene(const std::string& path) {
   const size_t diagnostics = scene_.diagnostics.size();
   load_obj(scene_, path, sides);
   check_patches(scene_, addition.first_patch());
+  check_memory(scene_, params_.max_memory);
   warn(log_, scene_, diagnostics);
   if (scene_.patch_count() > 0 && !emits(scene_)) log_.write(Log::warning, no_emitter);
   addition.keep();
@@ -228,6 +237,7 @@ void Solver::make_scene(const std::string& name) {
   made.bands = scene_.bands;
   make_builtin_scene(made, name);
   check_patches(made, 0);
+  check_memory(made, params_.max_memory);
   warn(log_, made, 0);
   scene_ = std::move(made);
 }

@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "stages/state_memory.h"
+
 namespace hrad {
 namespace {
 
@@ -95,6 +97,10 @@ class PairLinker {
     std::sort(found_[p].begin(), found_[p].end(),
               [](const Reciprocal& a, const Reciprocal& b) { return a.other < b.other; });
     found_[p].shrink_to_fit();
+  }
+
+  int64_t bytes_found(int64_t p) const {
+    return static_cast<int64_t>(found_[p].size() * sizeof(Reciprocal));
   }
 
   // Sorts the found links to their receivers: for each the sources in ascending order.
@@ -213,10 +219,12 @@ bool link_pairs(State& state, const StageTools& tools, const Brightness& brightn
                           tools.oracle.near_ratio);
   std::vector<LinkSampler> samplers(tools.team.size(), model);
   std::vector<int64_t> pairs(tools.team.size(), 0);
+  StageMemory memory(state);
   const bool done = tools.team.for_each(
       count,
       [&](int64_t p, int worker) {
         linker.link(static_cast<NodeId>(p), samplers[worker], &pairs[worker]);
+        memory.take(linker.bytes_found(p), "links");
       },
       [&](int64_t p) {
         // Surface p has count-p partners.
@@ -228,7 +236,11 @@ bool link_pairs(State& state, const StageTools& tools, const Brightness& brightn
     state.pairs += pairs[worker];
   }
   if (!done) return false;
+  int64_t found = 0;
+  for (int64_t p = 0; p < count; ++p) found += linker.bytes_found(p);
+  memory.take(2 * found, "links");  // each in both directions, in two places for a while
   state.links = linker.collect();
+  memory.settle();
   return true;
 }
 

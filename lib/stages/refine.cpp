@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "stages/state_memory.h"
 #include "stages/subtree_refiner.h"
 
 namespace hrad {
@@ -26,6 +27,13 @@ std::vector<int64_t> subtree_links(const State& state) {
     if (parent >= 0) count[parent] += count[k];
   }
   return count;
+}
+
+int64_t bytes_of(const SubtreeResult& result) {
+  size_t bytes = result.nodes.size() * sizeof(SubtreeNode);
+  for (const SubtreeNode& node : result.nodes)
+    bytes += (static_cast<size_t>(node.run.count()) + node.arriving.size()) * sizeof(Link);
+  return static_cast<int64_t>(bytes);
 }
 
 // Gives the new elements of a task their numbers and puts the runs of links in place.
@@ -83,6 +91,7 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
   const int64_t surfaces = state.forest.surface_count();
   int64_t finished = 0;
   while (!tasks.empty()) {
+    StageMemory memory(state);
     const std::vector<int64_t> weight = subtree_links(state);
     std::vector<SubtreeResult> results(tasks.size());
     std::vector<std::unique_ptr<SubtreeRefiner>> refiners(tools.team.size());
@@ -95,6 +104,7 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
           const int64_t work = weight[task.root] + static_cast<int64_t>(task.arriving.size());
           results[k] = refiners[worker]->refine(task.root, task.arriving,
                                                 work > most_links_of_a_task);
+          memory.take(bytes_of(results[k]), "refined links");
         },
         [&](int64_t done) {
           // Later passes are small beside the first. They are always carried to their end: nothing
@@ -108,6 +118,7 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
       state.rays += result.rays;
       store(state, result, next);
     }
+    memory.settle();
     finished += static_cast<int64_t>(tasks.size());
     tasks = std::move(next);
   }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "hierarchy/forest.h"
 #include "links/link.h"
 #include "links/oracle.h"
@@ -26,6 +27,7 @@ struct State {
   std::vector<float> irradiance;  // likewise
   std::vector<float> gathered;    // irradiance through the node's own links alone
   int64_t rays = 0, pairs = 0;
+  MemoryBudget memory;  // of scene, ray engine, elements and links
 };
 
 // What every stage needs of its surroundings.

@@ -172,17 +172,27 @@ using Four = Lanes<Register4, 4>;
 using Eight = Lanes<Half, 8>;
 using Sixteen = Lanes<Whole, 16>;
 
+// Lanes of a (0 to 3) and of b (4 to 7).
+template <int i, int j, int k, int l>
+Vector4 picked(Vector4 a, Vector4 b) {
+#ifdef __clang__
+  return __builtin_shufflevector(a, b, i, j, k, l);
+#else
+  using Order = int32_t __attribute__((vector_size(16)));
+  return __builtin_shuffle(a, b, Order{i, j, k, l});
+#endif
+}
+
 // The four rows of a square become its columns.
 inline void transpose(Four* rows) {
-  using Order = int32_t __attribute__((vector_size(16)));
   const Vector4 a = rows[0].part[0].v, b = rows[1].part[0].v;
   const Vector4 c = rows[2].part[0].v, d = rows[3].part[0].v;
-  const Vector4 low_ab = __builtin_shuffle(a, b, Order{0, 4, 1, 5});
-  const Vector4 high_ab = __builtin_shuffle(a, b, Order{2, 6, 3, 7});
-  const Vector4 low_cd = __builtin_shuffle(c, d, Order{0, 4, 1, 5});
-  const Vector4 high_cd = __builtin_shuffle(c, d, Order{2, 6, 3, 7});
-  rows[0].part[0].v = __builtin_shuffle(low_ab, low_cd, Order{0, 1, 4, 5});
-  rows[1].part[0].v = __builtin_shuffle(low_ab, low_cd, Order{2, 3, 6, 7});
-  rows[2].part[0].v = __builtin_shuffle(high_ab, high_cd, Order{0, 1, 4, 5});
-  rows[3].part[0].v = __builtin_shuffle(high_ab, high_cd, Order{2, 3, 6, 7});
+  const Vector4 low_ab = picked<0, 4, 1, 5>(a, b);
+  const Vector4 high_ab = picked<2, 6, 3, 7>(a, b);
+  const Vector4 low_cd = picked<0, 4, 1, 5>(c, d);
+  const Vector4 high_cd = picked<2, 6, 3, 7>(c, d);
+  rows[0].part[0].v = picked<0, 1, 4, 5>(low_ab, low_cd);
+  rows[1].part[0].v = picked<2, 3, 6, 7>(low_ab, low_cd);
+  rows[2].part[0].v = picked<0, 1, 4, 5>(high_ab, high_cd);
+  rows[3].part[0].v = picked<2, 3, 6, 7>(high_ab, high_cd);
 }

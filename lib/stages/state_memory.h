@@ -1,0 +1,40 @@
+// The memory of a solution, counted against its budget. Floor 7 (stages).
+#pragma once
+
+#include <cstdint>
+
+#include "stages/state.h"
+
+namespace hrad {
+
+// Bytes of elements, of their light and of their links.
+int64_t bytes_of(const State& state);
+
+// Counts what a stage uses for a while, and at its end what the solution grew by instead.
+class StageMemory {
+ public:
+  explicit StageMemory(State& state) : state_(state), before_(bytes_of(state)) {}
+  ~StageMemory() { state_.memory.take(-taken_.load(), ""); }
+  StageMemory(const StageMemory&) = delete;
+  StageMemory& operator=(const StageMemory&) = delete;
+
+  // MEMORY when that is over the limit. Any thread.
+  void take(int64_t bytes, const char* what) {
+    state_.memory.take(bytes, what);
+    taken_ += bytes;
+  }
+
+  // Of a stage that was carried to its end: the solution as it is now stays counted.
+  void settle() {
+    const int64_t now = bytes_of(state_);
+    take(now - before_ - taken_.load(), "links and elements");
+    taken_ = 0;
+  }
+
+ private:
+  State& state_;
+  const int64_t before_;
+  std::atomic<int64_t> taken_{0};
+};
+
+}  // namespace hrad
