@@ -195,6 +195,16 @@ static void wrong_struct_sizes(void** state) {
     assert_fails(hrad_describe_param(0, &param), HRAD_ERROR_ARGUMENT, "struct_size");
   }
   assert_int_equal(stats.ranks, 0x5a5a5a5a);
+  /* A size within a pointer: no half pointer is followed. */
+  for (size_t size = sizeof(size_t); size < sizeof(hrad_material); ++size) {
+    const double rho[3] = {0.25, 0.25, 0.25};
+    double read[3] = {0, 0, 0};
+    int32_t number = -1;
+    hrad_material material = {size, rho, rho, 0, "name"};
+    assert_ok(hrad_add_material(solver, &material, &number));
+    assert_ok(hrad_get_material(solver, number, NULL, 0, NULL, read, NULL, NULL));
+    assert_near(read[1], size < offsetof(hrad_material, emission) ? 0.5 : 0.25, 0);
+  }
   stats.struct_size = offsetof(hrad_stats, threads);
   assert_ok(hrad_get_stats(solver, &stats));
   assert_int_equal(stats.converged, 0);
