@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Every test of a fresh clone: installs what is missing (Debian, as root or with sudo), builds with
 # warnings as errors, runs the tests.
-#   bash tests/run.sh          every test, some minutes on two cores
+#   bash tests/run.sh          every test, some minutes on two cores; with clang and its libFuzzer
+#                              also every fuzz target for a minute
 #   bash tests/run.sh --full   before that the same tests under the address, undefined behaviour and
 #                              thread sanitizers, and all benchmarks
 set -euo pipefail
@@ -30,6 +31,27 @@ run_tests() {
   ctest --test-dir "$1" --output-on-failure --no-tests=error -j2 --timeout "$2"
 }
 
+# fuzz SECONDS: every fuzz target for so long, from the corpus in the tree; what it finds beside it
+# stays in build-fuzz. Nothing without clang and libFuzzer.
+fuzz() {
+  if ! echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, long) { return 0; }' |
+    clang++ -x c++ -fsanitize=fuzzer - -o /dev/null 2>/dev/null; then
+    echo "No clang with libFuzzer: the fuzz targets are left out, their corpus was replayed." >&2
+    return
+  fi
+  local generator=(-G Ninja) source target
+  if [[ -f build-fuzz/CMakeCache.txt ]]; then generator=(); fi
+  cmake --preset fuzz -B build-fuzz "${generator[@]}" -DHRAD_TESTS=ON
+  for source in tests/fuzz/fuzz_*.cpp; do
+    target=$(basename "$source" .cpp)
+    cmake --build build-fuzz --parallel "$(nproc)" --target "$target"
+    mkdir -p "build-fuzz/corpus/$target"
+    build-fuzz/tests/"$target" -max_total_time="$1" -timeout=60 -rss_limit_mb=3000 \
+      -dict=tests/fuzz/obj.dict -artifact_prefix="build-fuzz/$target-" -print_final_stats=1 \
+      "build-fuzz/corpus/$target" "tests/fuzz/corpus/${target#fuzz_}"
+  done
+}
+
 bash tests/setup.sh tests
 
 if $full; then
@@ -48,3 +70,4 @@ if $full; then
     --case accuracy=0.05 --case accuracy=0.02 building classroom
 fi
 run_tests build-tests 600
+fuzz 60
