@@ -5,6 +5,7 @@
 
 #include "base/angle.h"
 #include "links/close_pairs.h"
+#include "links/form_factor.h"
 #include "links/mean_factor.h"
 
 namespace hrad {
@@ -18,6 +19,28 @@ double half_range(const double v[4]) {
   const double low = std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
   const double high = std::max(std::max(v[0], v[1]), std::max(v[2], v[3]));
   return (high - low) * 0.5;
+}
+
+// Brings the mean of the kernel to the known one: what is left to chance is the share that is seen.
+void scale_to(double mean_kernel, PairSamples& samples) {
+  double sum = 0;
+  for (float kernel : samples.kernel) sum += kernel;
+  if (!(sum > 0)) return;
+  const float scale = static_cast<float>(mean_kernel * lanes_per_packet / sum);
+  for (float& kernel : samples.kernel) kernel *= scale;
+}
+
+// The form factor from points of the smaller end to the larger, mean over them.
+double factor_of_points(const Element& receiver, const Element& source, const PairPoints& points) {
+  const bool up = receiver.area <= source.area;
+  const Element &small = up ? receiver : source, &large = up ? source : receiver;
+  double sum = 0;
+  for (int k = 0; k < lanes_per_packet; ++k) {
+    const Vec3 x = up ? small.corners.at(points.receiver_u[k], points.receiver_v[k])
+                      : small.corners.at(points.source_u[k], points.source_v[k]);
+    sum += point_to_triangle(x, small.normal, large.corners);
+  }
+  return sum / lanes_per_packet;
 }
 
 }  // namespace
@@ -36,8 +59,10 @@ void LinkSampler::move_to_exposed(const Element& element, uint64_t key, float u[
   for (int k = 0; k < lanes_per_packet; ++k) {
     for (uint64_t draw = 0; draw < most_draws; ++draw) {
       if (is_exposed(element, u[k], v[k])) break;
+      // Of any sixteenth: to go on to the next one would favour those that follow sealed ones.
+      const uint64_t h = mix(key, draw, static_cast<uint64_t>(k));
       double uv[2];
-      spread_point(mix(key, draw), static_cast<int>((k + draw) % lanes_per_packet), uv);
+      spread_point(h, static_cast<int>(mix(h) % lanes_per_packet), uv);
       u[k] = static_cast<float>(uv[0]);
       v[k] = static_cast<float>(uv[1]);
     }
@@ -59,11 +84,16 @@ void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t 
   estimate.exposed = move_receiver ? 1 : receiver.exposed;
   estimate.source_exposed = move_source ? 1 : source.exposed;
   estimate.source_area = move_source ? source.area * source.exposed : source.area;
-  if (estimate.close_pairs)
+  if (estimate.close_pairs) {
     draw_close_pairs(receiver, source, key, engine_.center(), engine_.offset(), points,
                      drawn.samples);
-  else
+    const bool moved = up ? move_receiver : move_source;
+    scale_to(moved ? factor_of_points(receiver, source, points) / (up ? source : receiver).area
+                   : estimate.factor / source.area,
+             drawn.samples);
+  } else {
     place_pairs(receiver, source, points, engine_.center(), engine_.offset(), drawn.samples);
+  }
   drawn.exposed = 0;
   for (int k = 0; k < lanes_per_packet; ++k)
     if (is_exposed(receiver, points.receiver_u[k], points.receiver_v[k]) &&
@@ -156,8 +186,10 @@ float LinkSampler::exposed_share(const Node& place) const {
   if (!exposure_.can_be_sealed(surface.patch, surface.side)) return 1;
   const Triangle corners = forest_.triangle(place);
   const uint64_t key = key_of(forest_, place);
-  // One set tells most elements that are sealed not at all or all over; the borders take more.
+  // Few sets tell most elements that are sealed not at all or all over; the borders take more. A strip
+  // that all sets miss is lost, so that larger elements take more too.
   constexpr int most_sets = 16;
+  const int least_sets = std::max(2, most_sets >> ((place.level + 1) / 2));
   int exposed = 0, sets = 0;
   while (sets < most_sets) {
     const uint64_t set = static_cast<uint64_t>(sets++);
@@ -166,7 +198,7 @@ float LinkSampler::exposed_share(const Node& place) const {
       spread_point(mix(key, set), k, uv);
       exposed += !exposure_.sealed(surface.patch, surface.side, corners.at(uv[0], uv[1]));
     }
-    if (place.level > 0 && (exposed == 0 || exposed == sets * lanes_per_packet)) break;
+    if (sets >= least_sets && (exposed == 0 || exposed == sets * lanes_per_packet)) break;
   }
   return static_cast<float>(exposed) / static_cast<float>(sets * lanes_per_packet);
 }

@@ -53,7 +53,7 @@ void lattice_corners(const Node& n, LatticePoint corner[3]) {
   }
 }
 
-CornerIndex::CornerIndex(const Forest& forest) : forest_(forest) {
+CornerIndex::CornerIndex(const Forest& forest) {
   const Scene& scene = *forest.scene;
   const std::vector<int32_t> welded = weld(scene.vertices);
   const int32_t surfaces = static_cast<int32_t>(forest.surface_count());

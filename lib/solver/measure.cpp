@@ -219,7 +219,12 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
       const Hit hit = tools.engine.nearest(on + surface.normal * tools.engine.offset(), d, 0);
       ++s.rays;
       const bool lost = hit.patch < 0;
-      if (!lost && forest.root(hit.patch, hit.back ? 1 : 0) >= 0) continue;
+      const int32_t side = hit.back ? 1 : 0;
+      // What meets a sealed point, between the layers of a contact, is absorbed there.
+      if (!lost && forest.root(hit.patch, side) >= 0 &&
+          !(tools.exposure.can_be_sealed(hit.patch, side) &&
+            tools.exposure.sealed(hit.patch, side, scene.triangle(hit.patch).at(hit.u, hit.v))))
+        continue;
       if (!lost) ++s.back_rays;
       const double chance = weights[pick] / draw.total();
       const double exposed = forest.area(node) * node.exposed;

@@ -77,7 +77,7 @@ class Solver::Run {
       while (solution_.rounds_done < rounds_wanted() && !out_of_sweeps())
         if (!round()) return Status::stopped;
       const Status status = finish();
-      if (status != Status::ok || !tighten()) return status;
+      if (!tighten()) return status;
     }
   }
 
@@ -185,16 +185,20 @@ class Solver::Run {
       solution_.finished = true;
     }
     clock_.report(1.0, solver_.stats_.iterations);
-    return solution_.converged ? Status::ok : Status::not_converged;
+    return solution_.converged && !misses_accuracy() ? Status::ok : Status::not_converged;
   }
 
-  // True when the measurement says that the accuracy is missed and there is something left to try.
+  // The measurement is sure that the accuracy is missed, and the accuracy is what sets thresholds.
+  bool misses_accuracy() const {
+    const double sure = solver_.stats_.error_estimate - 2 * solver_.stats_.error_standard_error;
+    return sure > params_.accuracy && params_.tolerance <= 0 && params_.oracle != "energy";
+  }
+
+  // True when there is something left to try.
   bool tighten() {
-    const double error = solver_.stats_.error_estimate;
-    const double sure = error - 2 * solver_.stats_.error_standard_error;
-    if (!(sure > params_.accuracy) || solution_.tightened >= most_tightenings ||
-        params_.tolerance > 0 || params_.oracle == "energy")
+    if (!solution_.converged || !misses_accuracy() || solution_.tightened >= most_tightenings)
       return false;
+    const double error = solver_.stats_.error_estimate;
     solution_.scale *= std::max(0.5, std::min(0.7, 0.7 * params_.accuracy / error));
     ++solution_.tightened;
     solution_.finished = false;

@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "visibility/box_tree.h"
+#include "visibility/crossing.h"
 
 namespace hrad {
 namespace {
@@ -72,13 +73,26 @@ bool lies_on(const Scene& scene, int64_t q, int64_t p, double height, double tie
   return q < p;
 }
 
-// The point lies over the triangle, seen along its normal (length 1).
-bool over(const Triangle& t, Vec3 normal, Vec3 p) {
+// The point lies over the triangle, seen along its normal.
+bool over(const Triangle& t, Vec3 p) {
+  const Vec3 normal = t.area_vector();
   return dot(cross(t.b - t.a, p - t.a), normal) >= 0 &&
          dot(cross(t.c - t.b, p - t.b), normal) >= 0 && dot(cross(t.a - t.c, p - t.c), normal) >= 0;
 }
 
-// A cosine direction for inside_solid: any spread of directions serves.
+// What rays from a triangle start on, less a rim in which it may touch what it stands on or
+// against.
+Triangle lifted_inner(const Triangle& t, Vec3 normal, double offset) {
+  const Vec3 center = t.centroid();
+  const auto inner = [&](Vec3 corner) {
+    const double reach = length(corner - center);
+    const double rim = reach > 0 ? std::min(0.5, 4 * offset / reach) : 0;
+    return corner + (center - corner) * rim + normal * offset;
+  };
+  return {inner(t.a), inner(t.b), inner(t.c)};
+}
+
+// A cosine direction for enclosed: any spread of directions serves.
 Vec3 slanted(Vec3 normal, uint64_t hash) {
   const Vec3 noise{unit_interval(mix(hash, 1)) - 0.5, unit_interval(mix(hash, 2)) - 0.5,
                    unit_interval(mix(hash, 3)) - 0.5};
@@ -127,14 +141,23 @@ Exposure::Exposure(const Scene& scene, const VisibilityEngine& engine)
             height += h / 3;
           }
           // A cover turns its front against this side, or lies on it as a rug on a floor.
-          if (facing < 0 ||
-              (lies_on(scene, q, p, height, tie) && overlap(triangle, other, normal, contact)))
+          if ((facing < 0 || lies_on(scene, q, p, height, tie)) &&
+              overlap(triangle, other, normal, contact))
             covers_.push_back(q);
         });
         std::sort(covers_.begin() + cover_begin, covers_.end());
         const auto solid_begin = static_cast<std::ptrdiff_t>(enclosing_.size());
-        solid_tree.overlapping(grown(boxes[p], engine.offset()), [&](int32_t solid) {
-          if (solid != solids_.component[p]) enclosing_.push_back(solid);
+        const Triangle lifted = lifted_inner(triangle, normal, engine.offset());
+        std::vector<int32_t> crossed;  // solids whose surface this side passes through
+        patch_tree.overlapping(box_of(lifted), [&](int32_t q) {
+          if (triangles_cross(lifted, scene.triangle(q))) crossed.push_back(solids_.component[q]);
+        });
+        solid_tree.overlapping(box_of(lifted), [&](int32_t solid) {
+          if (solid == solids_.component[p]) return;
+          // The others enclose it whole or not at all.
+          if (std::find(crossed.begin(), crossed.end(), solid) != crossed.end() ||
+              enclosed(lifted.centroid(), normal))
+            enclosing_.push_back(solid);
         });
         std::sort(enclosing_.begin() + solid_begin, enclosing_.end());
       }
@@ -154,8 +177,7 @@ bool Exposure::can_be_sealed(int64_t patch, int32_t side) const {
 bool Exposure::pressed(int64_t patch, int32_t side, Vec3 point) const {
   const int64_t k = 2 * patch + side;
   for (int64_t c = first_cover_[k]; c < first_cover_[k + 1]; ++c) {
-    const Triangle cover = scene_.triangle(covers_[c]);
-    if (over(cover, normalized(cover.area_vector()), point)) return true;
+    if (over(scene_.triangle(covers_[c]), point)) return true;
   }
   return false;
 }
@@ -171,17 +193,20 @@ bool Exposure::inside_solid(int64_t patch, int32_t side, Vec3 point) const {
     in_a_box = in_a_box || (origin.x > box.low.x && origin.x < box.high.x && origin.y > box.low.y &&
                             origin.y < box.high.y && origin.z > box.low.z && origin.z < box.high.z);
   }
-  if (!in_a_box) return false;
-  // Inside means: the nearest surface shows its back, and it bounds a solid. Most of three rays, so
-  // that one that slips through an edge decides nothing.
-  int inside = 0;
-  for (uint64_t ray = 0; ray < 3; ++ray) {
+  return in_a_box && enclosed(origin, normal);
+}
+
+// The nearest surface shows its back, and it bounds a solid. Most of three rays, so that one that
+// slips through an edge decides nothing.
+bool Exposure::enclosed(Vec3 origin, Vec3 normal) const {
+  int inside = 0, outside = 0;
+  for (uint64_t ray = 0; inside < 2 && outside < 2; ++ray) {
     const Hit hit = engine_.nearest(origin, slanted(normal, mix(ray, 0x736f6c69u)), 0);
-    if (hit.patch < 0 || !hit.back) continue;
-    const int32_t solid = solids_.component[hit.patch];
-    inside += solid >= 0 && solids_.closed[solid] && solids_.volume[solid] > 0;
+    const int32_t solid = hit.patch >= 0 && hit.back ? solids_.component[hit.patch] : -1;
+    const bool in = solid >= 0 && solids_.closed[solid] && solids_.volume[solid] > 0;
+    ++(in ? inside : outside);
   }
-  return inside >= 2;
+  return inside == 2;
 }
 
 bool Exposure::sealed(int64_t patch, int32_t side, Vec3 point) const {

@@ -29,6 +29,7 @@ class Exposure {
 
  private:
   bool inside_solid(int64_t patch, int32_t side, Vec3 point) const;
+  bool enclosed(Vec3 origin, Vec3 normal) const;
 
   const Scene& scene_;
   const VisibilityEngine& engine_;
