@@ -186,8 +186,8 @@ float LinkSampler::exposed_share(const Node& place) const {
   if (!exposure_.can_be_sealed(surface.patch, surface.side)) return 1;
   const Triangle corners = forest_.triangle(place);
   const uint64_t key = key_of(forest_, place);
-  // Few sets tell most elements that are sealed not at all or all over; the borders take more. A strip
-  // that all sets miss is lost, so that larger elements take more too.
+  // Few sets tell most elements that are sealed not at all or all over; the borders take more. A
+  // strip that all sets miss is lost, so that larger elements take more too.
   constexpr int most_sets = 16;
   const int least_sets = std::max(2, most_sets >> ((place.level + 1) / 2));
   int exposed = 0, sets = 0;

@@ -12,11 +12,12 @@ namespace {
 
 // Packets of rays before a link that matters is taken for clear or dark.
 constexpr int packets_before_verdict = 4;
+constexpr int packets_before_dark = 8;
 constexpr int most_packets_before_verdict = 64;
 constexpr int rays_before_verdict = 16 * packets_before_verdict;
 constexpr double least_visible = 1.0 / rays_before_verdict;
-// Fractions this near to 0 or 1 are.
-constexpr double almost_dark = 0.5 / rays_before_verdict;
+// Fractions this near to 1 are.
+constexpr double almost_clear = 0.5 / rays_before_verdict;
 
 // Mean of V (1-V) over the fractions V that a shadow's edge brings.
 constexpr double partial_variance = 1.0 / 6;
@@ -57,7 +58,7 @@ Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEs
   const double relative = e.factor > 0 ? e.variation / e.factor : 0;
   const double quadrature = e.factor > 0 ? e.mean_error / e.factor : 0;
   const double visible = e.factor > 0 ? load.weight / e.factor : 0;
-  const bool partly_seen = visible > almost_dark && visible < 1 - almost_dark;
+  const bool partly_seen = visible < 1 - almost_clear;
   const double partial = partly_seen ? carried * partial_variance : 0;
   // Variation over the receiver: of the kernel, and of what is seen of the source.
   const double at_points =
@@ -86,7 +87,9 @@ int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEsti
   if (!(e.kernel_sum > 0)) return s.most_packets;
   const double visible = e.visible();
   const double variance = std::max(visible * (1 - visible), 1.0 / 18);
-  const double error = e.factor * load.brightness * variance * mean_share(load);
+  // All light that is seen arrives on the exposed part of what the pairs are drawn from.
+  const double error = e.factor * load.brightness * variance * mean_share(load) /
+                       std::max(1e-9, e.exposed * e.exposed);
   const double wanted = error / (16 * s.mean_variance);
   // Nothing seen, or nothing blocked, by n rays means a share below about 1/n, not none. Links that
   // look dark or clear are refined no further, others are: where that is to be decided by chance,
@@ -94,10 +97,12 @@ int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEsti
   const bool even = visible <= 0 || visible >= 1;
   const bool in_question =
       e.factor * load.brightness * point_share(s, load) > s.last_point_variance;
-  const int packets = std::min(s.most_packets, static_cast<int>(wanted) + 1);
+  const double most = e.exposed < 1 ? most_packets_before_verdict : s.most_packets;
+  const int packets = static_cast<int>(std::min(most, wanted + 1));
   if (!even) return packets;
   // Pairs on sealed points say nothing: where little is exposed it takes more to meet that little.
-  const double least = (in_question ? packets_before_verdict : 1) / std::max(1e-9, e.telling());
+  const int verdict = visible <= 0 ? packets_before_dark : packets_before_verdict;
+  const double least = (in_question ? verdict : 1) / std::max(1e-9, e.telling());
   return std::max(packets, static_cast<int>(std::min<double>(most_packets_before_verdict, least)));
 }
 

@@ -62,9 +62,10 @@ struct Tolerance {
 // Rooms without a contact or a narrow gap, patch by patch.
 constexpr Tolerance kPlain = {0.005, 0.003, 0.005, 0.032};
 constexpr Tolerance kSmall = {0.01, 0.005, 0.03, 0.03};
-// Compartments and slots a few centimetres wide between closed solids.
-constexpr Tolerance kCrowded = {0.01, 0.0065, 0.08, 0.03};
-constexpr Tolerance kLarge = {0.1, 0.025, 0.6, 0.08};
+// Thousands of patches, compartments and slots a few centimetres wide between closed solids.
+constexpr Tolerance kLarge = {0.025, 0.005, 0.2, 0.03};
+
+double mean_radiosity(double sealed) { return kExposed + (kEmission - kExposed) * sealed; }
 
 // Checks patch means and points; false when the scene isn't closed, so that nothing is to be said.
 bool check_furnace(ApiSolver& solver, const char* name, const Tolerance& tolerance) {
@@ -102,9 +103,14 @@ bool check_furnace(ApiSolver& solver, const char* name, const Tolerance& toleran
     for (size_t i = 0; i < sides.size(); ++i) {
       if (sides[i].side != side) continue;
       const Exposure& e = exposures[i];
-      const double mean = kExposed + (kEmission - kExposed) * e.sealed;
-      const double relative = radiosity[sides[i].surface][0] / mean - 1;
-      if (e.sealed == 0 || e.sealed == 1)
+      double sealed = e.sealed;
+      double relative = radiosity[sides[i].surface][0] / mean_radiosity(sealed) - 1;
+      // A few points may have missed a sealed part: whoever deviates is looked at more closely.
+      if ((sealed == 0 || sealed == 1) && std::fabs(relative) > tolerance.rms / 2) {
+        sealed = exposure(reference, sides[i], 1000).sealed;
+        relative = radiosity[sides[i].surface][0] / mean_radiosity(sealed) - 1;
+      }
+      if (sealed == 0 || sealed == 1)
         means.add(surfaces[sides[i].surface].area, relative);
       else
         CHECK_NEAR(relative, 0, tolerance.largest + 0.03);  // the sealed share itself is a sample
@@ -172,10 +178,7 @@ void built_in_scenes_as_furnaces() {
     ApiSolver solver;
     solver.make(name.c_str());
     const bool plain = name == "furnace" || name == "furnace-sphere" || name == "box-in-box";
-    const Tolerance& tolerance = plain                      ? kPlain
-                                 : solver.size() > 2000     ? kLarge
-                                 : name == "furnished-room" ? kCrowded
-                                                            : kSmall;
+    const Tolerance& tolerance = plain ? kPlain : solver.size() > 2000 ? kLarge : kSmall;
     try {
       closed += check_furnace(solver, name.c_str(), tolerance);
     } catch (const hrad_test::Failure& failure) {  // the others are looked at all the same
@@ -193,7 +196,7 @@ void balance_of_built_in_scenes() {
   for (const std::string& name : scene_names()) {
     ApiSolver solver;
     solver.make(name.c_str());
-    solver.set("accuracy", solver.size() > 2000 ? 0.1 : 0.05);
+    solver.set("accuracy", solver.size() > 2000 ? 0.03 : 0.05);
     CHECK(solver.solve() >= 0);
     double emitted = 0;
     for (const Surface& s : solver.surfaces()) emitted += s.sides() * s.area * sum(s.emission);
