@@ -1,4 +1,4 @@
-// Dividing the larger end by what the middle of the smaller one sees of its parts.
+// Dividing the larger end by what the smaller one sees of its parts.
 // Floor 6 (links).
 #include "links/close_pairs.h"
 
@@ -12,6 +12,8 @@ namespace {
 
 // The larger end is close when it is nearer than this many of its radii.
 constexpr double close_radii = 1.5;
+// Nearer than so many of its radii the smaller end is no single point: long slivers beside a wall.
+constexpr double alike_radii = 0.25;
 // The heaviest part is divided as long as it is larger than this share of its distance, so often at
 // the most.
 constexpr double small_enough = 0.5;
@@ -40,39 +42,50 @@ Part quarter(const Part& p, int k) {
 
 // The form factor of a sphere of the part's size, never nothing: pairs are weighted by what they
 // really bring, so that a wrong guess costs accuracy and no light.
-void weigh(const Element& small, const Element& large, Part& part) {
+void weigh(Vec3 x, Vec3 normal, const Element& large, Part& part) {
   const Vec3 middle = large.corners.at((part.u[0] + part.u[1] + part.u[2]) / 3,
                                        (part.v[0] + part.v[1] + part.v[2]) / 3);
-  const Vec3 d = middle - small.centroid;
+  const Vec3 d = middle - x;
   const double distance2 = dot(d, d);
   part.distance = std::sqrt(distance2);
   const double reach = part.distance + part.radius;
-  const double at_small = std::max(0.0, dot(d, small.normal)) + 0.3 * part.radius;
+  const double at_small = std::max(0.0, dot(d, normal)) + 0.3 * part.radius;
   const double at_large = std::max(0.0, -dot(d, large.normal)) + 0.3 * part.radius;
   const double size2 = distance2 + part.radius * part.radius / 4;
   part.weight = part.area * (at_small + 0.02 * reach) * (at_large + 0.02 * reach) / (size2 * size2);
 }
 
-int divide(const Element& small, const Element& large, Part parts[most_parts]) {
-  parts[0] = {{0, 1, 0}, {0, 0, 1}, large.area, large.radius, 0, 0};
-  weigh(small, large, parts[0]);
-  int count = 1;
-  for (int division = 0; division < most_divisions; ++division) {
-    int heaviest = -1;
-    for (int k = 0; k < count; ++k)
-      if (parts[k].radius > small_enough * parts[k].distance &&
-          (heaviest < 0 || parts[k].weight > parts[heaviest].weight))
-        heaviest = k;
-    if (heaviest < 0) break;
-    const Part whole = parts[heaviest];
-    for (int k = 0; k < 4; ++k) {
-      Part& part = k == 0 ? parts[heaviest] : parts[count++];
-      part = quarter(whole, k);
-      weigh(small, large, part);
+// The parts and the running sum of their weights.
+struct Division {
+  Part parts[most_parts];
+  double end[most_parts];
+  int count = 0;
+
+  void divide(Vec3 x, Vec3 normal, const Element& large) {
+    parts[0] = {{0, 1, 0}, {0, 0, 1}, large.area, large.radius, 0, 0};
+    weigh(x, normal, large, parts[0]);
+    count = 1;
+    for (int division = 0; division < most_divisions; ++division) {
+      int heaviest = -1;
+      for (int k = 0; k < count; ++k)
+        if (parts[k].radius > small_enough * parts[k].distance &&
+            (heaviest < 0 || parts[k].weight > parts[heaviest].weight))
+          heaviest = k;
+      if (heaviest < 0) break;
+      const Part whole = parts[heaviest];
+      for (int k = 0; k < 4; ++k) {
+        Part& part = k == 0 ? parts[heaviest] : parts[count++];
+        part = quarter(whole, k);
+        weigh(x, normal, large, part);
+      }
     }
+    for (int k = 0; k < count; ++k) end[k] = (k > 0 ? end[k - 1] : 0) + parts[k].weight;
   }
-  return count;
-}
+  double sum() const { return end[count - 1]; }
+  const Part& at(double share) const {
+    return parts[std::upper_bound(end, end + count - 1, share * sum()) - end];
+  }
+};
 
 }  // namespace
 
@@ -88,10 +101,13 @@ void draw_close_pairs(const Element& receiver, const Element& source, uint64_t k
   const Element &small = up ? receiver : source, &large = up ? source : receiver;
   float* to_u = up ? points.source_u : points.receiver_u;
   float* to_v = up ? points.source_v : points.receiver_v;
-  Part parts[most_parts];
-  const int count = divide(small, large, parts);
-  double end[most_parts];  // of each part's stretch of the weights' sum
-  for (int k = 0; k < count; ++k) end[k] = (k > 0 ? end[k - 1] : 0) + parts[k].weight;
+  const float* from_u = up ? points.receiver_u : points.source_u;
+  const float* from_v = up ? points.receiver_v : points.source_v;
+  // Seen from a compact end the parts serve all its points.
+  const bool alike =
+      distance_to_triangle(small.centroid, large.corners) > alike_radii * small.radius;
+  Division division;
+  if (alike) division.divide(small.centroid, small.normal, large);
   const int turn = static_cast<int>(mix(key, 0x7475726eu) % 16);
   float scale[16];
   for (int k = 0; k < 16; ++k) {
@@ -100,8 +116,8 @@ void draw_close_pairs(const Element& receiver, const Element& source, uint64_t k
     // apart, and other ones for other keys.
     const int stretch = (4 * (k % 4) + k / 4 + turn) % 16;
     const double share = (stretch + unit_interval(mix(h, 1))) / 16;
-    const double* stop = std::upper_bound(end, end + count - 1, share * end[count - 1]);
-    const Part& part = parts[stop - end];
+    if (!alike) division.divide(small.corners.at(from_u[k], from_v[k]), small.normal, large);
+    const Part& part = division.at(share);
     double a = unit_interval(mix(h, 2)), b = unit_interval(mix(h, 3));
     if (a + b > 1) {
       a = 1 - a;
@@ -111,7 +127,7 @@ void draw_close_pairs(const Element& receiver, const Element& source, uint64_t k
     to_u[k] = static_cast<float>(part.u[0] * c + part.u[1] * a + part.u[2] * b);
     to_v[k] = static_cast<float>(part.v[0] * c + part.v[1] * a + part.v[2] * b);
     // Drawn so much more often than points spread evenly.
-    scale[k] = static_cast<float>(part.area * end[count - 1] / (part.weight * large.area));
+    scale[k] = static_cast<float>(part.area * division.sum() / (part.weight * large.area));
   }
   place_pairs(receiver, source, points, center, offset, samples);
   for (int k = 0; k < 16; ++k) samples.kernel[k] *= scale[k];
