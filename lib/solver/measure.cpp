@@ -51,7 +51,8 @@ bool dark(const Scene& scene, int32_t patch) {
 
 // One drawn patch, all bands together.
 struct Residual {
-  double square = 0;  // of the difference between solved and measured; noise makes it larger or smaller
+  double square =
+      0;  // of the difference between solved and measured; noise makes it larger or smaller
   double solved = 0;  // radiosity squared
   double signed_sum = 0, solved_sum = 0;
   int64_t rays = 0;
@@ -83,10 +84,12 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
   for (int b = 0; b < bands; ++b) {
     const size_t at = static_cast<size_t>(surface.patch) * bands + b;
     const double factor = reflected ? scene.reflectance[at] : 1.0;
-    const double solved = factor * exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
+    const double solved =
+        factor * exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
     double difference[2];
     for (int half = 0; half < 2; ++half)
-      difference[half] = solved - factor * sum[half][b] / (rays_of_a_point * (points_of_a_patch / 2));
+      difference[half] =
+          solved - factor * sum[half][b] / (rays_of_a_point * (points_of_a_patch / 2));
     r.square += difference[0] * difference[1];
     r.solved += solved * solved;
     r.signed_sum += (difference[0] + difference[1]) / 2;
@@ -108,7 +111,8 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
     const Surface& surface = forest.surfaces[root];
     double largest = 0;
     for (int b = 0; b < scene.bands; ++b)
-      largest = std::max(largest, scene.reflectance[static_cast<size_t>(surface.patch) * scene.bands + b]);
+      largest = std::max(largest,
+                         scene.reflectance[static_cast<size_t>(surface.patch) * scene.bands + b]);
     reflecting += largest * surface.area;
     area += surface.area;
     if (!dark(scene, surface.patch)) continue;
@@ -125,8 +129,7 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
   std::vector<Residual> residuals(measured_patches);
   tools.team.for_each(measured_patches, [&](int64_t k, int) {
     const uint64_t h = mix(tools.oracle.seed, static_cast<uint64_t>(k), 0x6572726f72u);
-    const size_t pick =
-        draw.pick((static_cast<double>(k) + unit_interval(h)) / measured_patches);
+    const size_t pick = draw.pick((static_cast<double>(k) + unit_interval(h)) / measured_patches);
     residuals[k] = residual_of(state, tools, rays, roots[pick], h, rays_of_a_point, reflected);
   });
   double square = 0, solved = 0, fourth = 0, bias = 0, solved_sum = 0;
@@ -147,10 +150,11 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
       std::max(0.0, square / solved - relative_bias * relative_bias) + carried * carried;
   estimate.error = std::sqrt(variance);
   const double count = measured_patches;
-  const double spread = std::sqrt(std::max(0.0, fourth / count - (square / count) * (square / count)) / count);
+  const double spread =
+      std::sqrt(std::max(0.0, fourth / count - (square / count) * (square / count)) / count);
   const double error_of_square = spread / (solved / count);
-  estimate.standard_error = std::min(
-      std::sqrt(error_of_square), error_of_square / (2 * std::max(estimate.error, 1e-12)));
+  estimate.standard_error =
+      std::min(std::sqrt(error_of_square), error_of_square / (2 * std::max(estimate.error, 1e-12)));
   return estimate;
 }
 
@@ -171,7 +175,8 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
     const size_t patch = static_cast<size_t>(forest.surfaces[node.surface].patch) * bands;
     for (int b = 0; b < bands; ++b) {
       balance.emitted[b] += area * scene.emission[patch + b];
-      balance.absorbed[b] += exposed * (1 - scene.reflectance[patch + b]) * state.irradiance[at + b];
+      balance.absorbed[b] +=
+          exposed * (1 - scene.reflectance[patch + b]) * state.irradiance[at + b];
       // What a sealed part emits is absorbed in the contact.
       balance.absorbed_back[b] += (area - exposed) * scene.emission[patch + b];
       leaving[b] += exposed * state.radiosity[at + b];
@@ -183,7 +188,8 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
     const double exposed = forest.area(node) * node.exposed;
     for (int b = 0; b < bands; ++b)
       if (leaving[b] > 0)
-        weights[k] += exposed * state.radiosity[static_cast<size_t>(leaves[k]) * bands + b] / leaving[b];
+        weights[k] +=
+            exposed * state.radiosity[static_cast<size_t>(leaves[k]) * bands + b] / leaving[b];
   }
   const EvenDraw draw(weights);
   if (!(draw.total() > 0)) return balance;
@@ -220,11 +226,14 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
       ++s.rays;
       const bool lost = hit.patch < 0;
       const int32_t side = hit.back ? 1 : 0;
-      // What meets a sealed point, between the layers of a contact, is absorbed there.
-      if (!lost && forest.root(hit.patch, side) >= 0 &&
-          !(tools.exposure.can_be_sealed(hit.patch, side) &&
-            tools.exposure.sealed(hit.patch, side, scene.triangle(hit.patch).at(hit.u, hit.v))))
-        continue;
+      if (!lost && forest.root(hit.patch, side) >= 0) {
+        // Where the back of something lies flat on this side, it is that back which is met.
+        const Vec3 at = scene.triangle(hit.patch).at(hit.u, hit.v);
+        if (!tools.exposure.can_be_sealed(hit.patch, side) ||
+            !tools.exposure.sealed(hit.patch, side, at) ||
+            tools.exposure.overlaid(hit.patch, side, at))
+          continue;
+      }
       if (!lost) ++s.back_rays;
       const double chance = weights[pick] / draw.total();
       const double exposed = forest.area(node) * node.exposed;

@@ -19,6 +19,9 @@ namespace hrad {
 namespace {
 
 // How often the thresholds are lowered when a measurement shows that the accuracy was missed.
+// Only a miss by this factor, and of an error that can be told from noise, is a failure: the
+// measurement is a sample.
+constexpr double surely_missed = 2, least_measurable = 0.02;
 constexpr int most_tightenings = 2;
 
 double user_seconds() {
@@ -185,18 +188,21 @@ class Solver::Run {
       solution_.finished = true;
     }
     clock_.report(1.0, solver_.stats_.iterations);
-    return solution_.converged && !misses_accuracy() ? Status::ok : Status::not_converged;
+    const bool missed = steered_by_accuracy() &&
+                        error_but(3) > std::max(surely_missed * params_.accuracy, least_measurable);
+    return solution_.converged && !missed ? Status::ok : Status::not_converged;
   }
 
-  // The measurement is sure that the accuracy is missed, and the accuracy is what sets thresholds.
-  bool misses_accuracy() const {
-    const double sure = solver_.stats_.error_estimate - 2 * solver_.stats_.error_standard_error;
-    return sure > params_.accuracy && params_.tolerance <= 0 && params_.oracle != "energy";
+  // The measured error less so many of its standard errors.
+  double error_but(double standard_errors) const {
+    return solver_.stats_.error_estimate - standard_errors * solver_.stats_.error_standard_error;
   }
+  bool steered_by_accuracy() const { return params_.tolerance <= 0 && params_.oracle != "energy"; }
 
   // True when there is something left to try.
   bool tighten() {
-    if (!solution_.converged || !misses_accuracy() || solution_.tightened >= most_tightenings)
+    if (!solution_.converged || !steered_by_accuracy() || !(error_but(2) > params_.accuracy) ||
+        solution_.tightened >= most_tightenings)
       return false;
     const double error = solver_.stats_.error_estimate;
     solution_.scale *= std::max(0.5, std::min(0.7, 0.7 * params_.accuracy / error));

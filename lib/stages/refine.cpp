@@ -73,13 +73,14 @@ void store(State& state, SubtreeResult& result, std::vector<Task>& next) {
 }
 
 // New elements know better than their parents what is sealed.
-void pull_exposure(Forest& forest) {
+void pull_exposure(State& state) {
+  Forest& forest = state.forest;
   for (size_t k = forest.nodes.size(); k-- > 0;) {
     Node& node = forest.nodes[k];
     if (node.first_child < 0) continue;
     const Node* child = &forest.nodes[node.first_child];
-    node.exposed =
-        (child[0].exposed + child[1].exposed + child[2].exposed + child[3].exposed) / 4;
+    node.exposed = (child[0].exposed + child[1].exposed + child[2].exposed + child[3].exposed) / 4;
+    if (node.exposed <= 0) state.links[k].assign({});
   }
 }
 
@@ -102,8 +103,8 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
         [&](int64_t k, int worker) {
           const Task& task = tasks[k];
           const int64_t work = weight[task.root] + static_cast<int64_t>(task.arriving.size());
-          results[k] = refiners[worker]->refine(task.root, task.arriving,
-                                                work > most_links_of_a_task);
+          results[k] =
+              refiners[worker]->refine(task.root, task.arriving, work > most_links_of_a_task);
           memory.take(bytes_of(results[k]), "refined links");
         },
         [&](int64_t done) {
@@ -122,7 +123,7 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
     finished += static_cast<int64_t>(tasks.size());
     tasks = std::move(next);
   }
-  pull_exposure(state.forest);
+  pull_exposure(state);
   return true;
 }
 

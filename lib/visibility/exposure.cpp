@@ -182,6 +182,18 @@ bool Exposure::pressed(int64_t patch, int32_t side, Vec3 point) const {
   return false;
 }
 
+bool Exposure::overlaid(int64_t patch, int32_t side, Vec3 point) const {
+  const int64_t k = 2 * patch + side;
+  const Vec3 normal = scene_.triangle(patch).area_vector() * (side ? -1.0 : 1.0);
+  for (int64_t c = first_cover_[k]; c < first_cover_[k + 1]; ++c) {
+    const Triangle cover = scene_.triangle(covers_[c]);
+    const bool same_way =
+        scene_.has(covers_[c], patch_two_sided) || dot(cover.area_vector(), normal) > 0;
+    if (same_way && over(cover, point)) return true;
+  }
+  return false;
+}
+
 bool Exposure::inside_solid(int64_t patch, int32_t side, Vec3 point) const {
   const int64_t k = 2 * patch + side;
   const Vec3 front = normalized(scene_.triangle(patch).area_vector());

@@ -24,6 +24,10 @@ class Exposure {
 
   // The point (in the scene's coordinates, on the patch) is sealed on this side. Any thread.
   bool sealed(int64_t patch, int32_t side, Vec3 point) const;
+
+  // A surface that faces the same way lies on this point, as a rug on a floor: what would arrive here
+  // arrives there. Any thread.
+  bool overlaid(int64_t patch, int32_t side, Vec3 point) const;
   // The same by contact alone, solids left aside.
   bool pressed(int64_t patch, int32_t side, Vec3 point) const;
 
