@@ -104,7 +104,8 @@ typedef struct hrad_solver hrad_solver;
 typedef int32_t hrad_status;
 enum {
   HRAD_OK = 0,
-  HRAD_NOT_CONVERGED = 1,      /* max_iterations reached; the result is usable, the promise is not kept */
+  HRAD_NOT_CONVERGED = 1,      /* max_iterations reached, or the measured error surely more than twice the
+                                  accuracy; the result is usable, the promise is not kept */
   HRAD_STOPPED = 2,            /* hrad_request_stop or the progress callback asked for it */
   HRAD_ERROR_ARGUMENT = -1,    /* a NULL, a value out of range, an unknown name */
   HRAD_ERROR_STATE = -2,       /* a call out of order */
