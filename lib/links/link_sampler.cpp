@@ -51,22 +51,35 @@ bool LinkSampler::is_exposed(const Element& element, double u, double v) const {
   return !exposure_.sealed(surface.patch, surface.side, element.corners.at(u, v));
 }
 
+// Bit k set: point k is exposed.
+uint32_t LinkSampler::exposed_mask(const Element& element, const float u[16],
+                                   const float v[16]) const {
+  if (element.exposed >= 1) return all_pairs;
+  uint32_t mask = 0;
+  for (int k = 0; k < lanes_per_packet; ++k)
+    if (is_exposed(element, u[k], v[k])) mask |= 1u << k;
+  return mask;
+}
+
 // Points on the sealed part are drawn again until they lie on the exposed one. As often as it takes
-// where a hundredth is exposed; a point that stays sealed counts as blocked.
-void LinkSampler::move_to_exposed(const Element& element, uint64_t key, float u[16],
-                                  float v[16]) const {
+// where a hundredth is exposed; a point that stays sealed counts as blocked. The mask of the
+// others.
+uint32_t LinkSampler::move_to_exposed(const Element& element, uint64_t key, float u[16],
+                                      float v[16]) const {
   constexpr uint64_t most_draws = 400;
+  uint32_t mask = exposed_mask(element, u, v);
   for (int k = 0; k < lanes_per_packet; ++k) {
-    for (uint64_t draw = 0; draw < most_draws; ++draw) {
-      if (is_exposed(element, u[k], v[k])) break;
+    for (uint64_t draw = 0; draw < most_draws && !(mask >> k & 1); ++draw) {
       // Of any sixteenth: to go on to the next one would favour those that follow sealed ones.
       const uint64_t h = mix(key, draw, static_cast<uint64_t>(k));
       double uv[2];
       spread_point(h, static_cast<int>(mix(h) % lanes_per_packet), uv);
       u[k] = static_cast<float>(uv[0]);
       v[k] = static_cast<float>(uv[1]);
+      if (is_exposed(element, u[k], v[k])) mask |= 1u << k;
     }
   }
+  return mask;
 }
 
 // The pairs that are traced, with all that the first look at a link does without.
@@ -78,8 +91,11 @@ void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t 
   // Of close pairs the points on the larger end are drawn sealed or not.
   const bool move_receiver = receiver.exposed < 1 && (up || !estimate.close_pairs);
   const bool move_source = source.exposed < 1 && !(up && estimate.close_pairs);
-  if (move_receiver) move_to_exposed(receiver, mix(key, 1), points.receiver_u, points.receiver_v);
-  if (move_source) move_to_exposed(source, mix(key, 2), points.source_u, points.source_v);
+  uint32_t receiver_exposed = all_pairs, source_exposed = all_pairs;
+  if (move_receiver)
+    receiver_exposed = move_to_exposed(receiver, mix(key, 1), points.receiver_u, points.receiver_v);
+  if (move_source)
+    source_exposed = move_to_exposed(source, mix(key, 2), points.source_u, points.source_v);
   estimate.exposed_only = move_receiver || move_source;
   estimate.exposed = move_receiver ? 1 : receiver.exposed;
   estimate.source_exposed = move_source ? 1 : source.exposed;
@@ -94,11 +110,10 @@ void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t 
   } else {
     place_pairs(receiver, source, points, engine_.center(), engine_.offset(), drawn.samples);
   }
-  drawn.exposed = 0;
-  for (int k = 0; k < lanes_per_packet; ++k)
-    if (is_exposed(receiver, points.receiver_u[k], points.receiver_v[k]) &&
-        is_exposed(source, points.source_u[k], points.source_v[k]))
-      drawn.exposed |= 1u << k;
+  if (!move_receiver)
+    receiver_exposed = exposed_mask(receiver, points.receiver_u, points.receiver_v);
+  if (!move_source) source_exposed = exposed_mask(source, points.source_u, points.source_v);
+  drawn.exposed = receiver_exposed & source_exposed;
 }
 
 void LinkSampler::begin(const Element& receiver, const Element& source, uint64_t key,

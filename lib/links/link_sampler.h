@@ -99,7 +99,8 @@ class LinkSampler {
   void draw(const Element& receiver, const Element& source, uint64_t key, LinkEstimate& estimate,
             DrawnPairs& drawn) const;
   bool is_exposed(const Element& element, double u, double v) const;
-  void move_to_exposed(const Element& element, uint64_t key, float u[16], float v[16]) const;
+  uint32_t move_to_exposed(const Element& element, uint64_t key, float u[16], float v[16]) const;
+  uint32_t exposed_mask(const Element& element, const float u[16], const float v[16]) const;
   void trace_drawn(const DrawnPairs& drawn, LinkEstimate& estimate);
 
   const Forest& forest_;

@@ -28,6 +28,12 @@ Box box_of(const Triangle& t) {
   return box;
 }
 
+// Strictly inside.
+bool holds(const Box& box, Vec3 p) {
+  return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y &&
+         p.z > box.low.z && p.z < box.high.z;
+}
+
 bool same_corners(const Triangle& a, const Triangle& b) {
   const auto among = [&](Vec3 p) {
     for (Vec3 q : {b.a, b.b, b.c})
@@ -146,6 +152,8 @@ Exposure::Exposure(const Scene& scene, const VisibilityEngine& engine)
             covers_.push_back(q);
         });
         std::sort(covers_.begin() + cover_begin, covers_.end());
+        for (size_t c = cover_boxes_.size(); c < covers_.size(); ++c)
+          cover_boxes_.push_back(grown(boxes[covers_[c]], 4 * contact));
         const auto solid_begin = static_cast<std::ptrdiff_t>(enclosing_.size());
         const Triangle lifted = lifted_inner(triangle, normal, engine.offset());
         std::vector<int32_t> crossed;  // solids whose surface this side passes through
@@ -176,9 +184,8 @@ bool Exposure::can_be_sealed(int64_t patch, int32_t side) const {
 
 bool Exposure::pressed(int64_t patch, int32_t side, Vec3 point) const {
   const int64_t k = 2 * patch + side;
-  for (int64_t c = first_cover_[k]; c < first_cover_[k + 1]; ++c) {
-    if (over(scene_.triangle(covers_[c]), point)) return true;
-  }
+  for (int64_t c = first_cover_[k]; c < first_cover_[k + 1]; ++c)
+    if (holds(cover_boxes_[c], point) && over(scene_.triangle(covers_[c]), point)) return true;
   return false;
 }
 
@@ -201,9 +208,7 @@ bool Exposure::inside_solid(int64_t patch, int32_t side, Vec3 point) const {
   const Vec3 origin = point + normal * engine_.offset();
   bool in_a_box = false;
   for (int64_t c = first_enclosing_[k]; c < first_enclosing_[k + 1]; ++c) {
-    const Box& box = solids_.box[enclosing_[c]];
-    in_a_box = in_a_box || (origin.x > box.low.x && origin.x < box.high.x && origin.y > box.low.y &&
-                            origin.y < box.high.y && origin.z > box.low.z && origin.z < box.high.z);
+    in_a_box = in_a_box || holds(solids_.box[enclosing_[c]], origin);
   }
   return in_a_box && enclosed(origin, normal);
 }

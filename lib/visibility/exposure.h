@@ -41,6 +41,7 @@ class Exposure {
   // For every side of a patch (2*patch+side) its run of covers_ and of enclosing_.
   std::vector<int64_t> first_cover_, first_enclosing_;
   std::vector<int32_t> covers_;     // patches pressed against it
+  std::vector<Box> cover_boxes_;    // theirs, a little larger: most points lie outside most of them
   std::vector<int32_t> enclosing_;  // solids whose box it reaches into
 };
 
