@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/hash.h"
+#include "links/form_factor.h"
 #include "links/mean_factor.h"
 
 namespace hrad {
@@ -20,32 +21,18 @@ constexpr double small_enough = 0.5;
 constexpr int most_divisions = 8;
 constexpr int most_parts = 1 + 3 * most_divisions;
 
-// A part of a triangle: the coordinates (u,v) of its corners, and about what is seen of it.
+// A part of a triangle, and about what is seen of it.
 struct Part {
-  double u[3], v[3];
+  Node place;
   double area, radius, distance, weight;
 };
-
-Part quarter(const Part& p, int k) {
-  double mu[3], mv[3];  // of the edges opposite the corners
-  for (int e = 0; e < 3; ++e) {
-    mu[e] = (p.u[(e + 1) % 3] + p.u[(e + 2) % 3]) / 2;
-    mv[e] = (p.v[(e + 1) % 3] + p.v[(e + 2) % 3]) / 2;
-  }
-  const int next = (k + 1) % 3, last = (k + 2) % 3;
-  Part part = k == 3 ? Part{{mu[0], mu[1], mu[2]}, {mv[0], mv[1], mv[2]}, 0, 0, 0, 0}
-                     : Part{{p.u[k], mu[last], mu[next]}, {p.v[k], mv[last], mv[next]}, 0, 0, 0, 0};
-  part.area = p.area / 4;
-  part.radius = p.radius / 2;
-  return part;
-}
 
 // The form factor of a sphere of the part's size, never nothing: pairs are weighted by what they
 // really bring, so that a wrong guess costs accuracy and no light.
 void weigh(Vec3 x, Vec3 normal, const Element& large, Part& part) {
-  const Vec3 middle = large.corners.at((part.u[0] + part.u[1] + part.u[2]) / 3,
-                                       (part.v[0] + part.v[1] + part.v[2]) / 3);
-  const Vec3 d = middle - x;
+  float u, v;
+  point_in_place(part.place, 1.0 / 3, 1.0 / 3, &u, &v);
+  const Vec3 d = large.corners.at(u, v) - x;
   const double distance2 = dot(d, d);
   part.distance = std::sqrt(distance2);
   const double reach = part.distance + part.radius;
@@ -62,7 +49,7 @@ struct Division {
   int count = 0;
 
   void divide(Vec3 x, Vec3 normal, const Element& large) {
-    parts[0] = {{0, 1, 0}, {0, 0, 1}, large.area, large.radius, 0, 0};
+    parts[0] = {Node{}, large.area, large.radius, 0, 0};
     weigh(x, normal, large, parts[0]);
     count = 1;
     for (int division = 0; division < most_divisions; ++division) {
@@ -75,7 +62,7 @@ struct Division {
       const Part whole = parts[heaviest];
       for (int k = 0; k < 4; ++k) {
         Part& part = k == 0 ? parts[heaviest] : parts[count++];
-        part = quarter(whole, k);
+        part = {child_place(whole.place, k), whole.area / 4, whole.radius / 2, 0, 0};
         weigh(x, normal, large, part);
       }
     }
@@ -87,22 +74,24 @@ struct Division {
   }
 };
 
+Vec3 point_of_small(const EndsBySize& ends, const PairPoints& points, int k) {
+  return ends.receiver_smaller ? ends.small.corners.at(points.receiver_u[k], points.receiver_v[k])
+                               : ends.small.corners.at(points.source_u[k], points.source_v[k]);
+}
+
 }  // namespace
 
-bool is_close(const Element& receiver, const Element& source) {
-  const bool up = receiver.area <= source.area;
-  const Element &small = up ? receiver : source, &large = up ? source : receiver;
-  return distance_to_triangle(small.centroid, large.corners) < close_radii * large.radius;
+bool is_close(const EndsBySize& ends) {
+  return distance_to_triangle(ends.small.centroid, ends.large.corners) <
+         close_radii * ends.large.radius;
 }
 
 void draw_close_pairs(const Element& receiver, const Element& source, uint64_t key, Vec3 center,
                       double offset, PairPoints& points, PairSamples& samples) {
-  const bool up = receiver.area <= source.area;
-  const Element &small = up ? receiver : source, &large = up ? source : receiver;
-  float* to_u = up ? points.source_u : points.receiver_u;
-  float* to_v = up ? points.source_v : points.receiver_v;
-  const float* from_u = up ? points.receiver_u : points.source_u;
-  const float* from_v = up ? points.receiver_v : points.source_v;
+  const EndsBySize ends(receiver, source);
+  const Element &small = ends.small, &large = ends.large;
+  float* to_u = ends.receiver_smaller ? points.source_u : points.receiver_u;
+  float* to_v = ends.receiver_smaller ? points.source_v : points.receiver_v;
   // Seen from a compact end the parts serve all its points.
   const bool alike =
       distance_to_triangle(small.centroid, large.corners) > alike_radii * small.radius;
@@ -116,21 +105,31 @@ void draw_close_pairs(const Element& receiver, const Element& source, uint64_t k
     // apart, and other ones for other keys.
     const int stretch = (4 * (k % 4) + k / 4 + turn) % 16;
     const double share = (stretch + unit_interval(mix(h, 1))) / 16;
-    if (!alike) division.divide(small.corners.at(from_u[k], from_v[k]), small.normal, large);
+    if (!alike) division.divide(point_of_small(ends, points, k), small.normal, large);
     const Part& part = division.at(share);
-    double a = unit_interval(mix(h, 2)), b = unit_interval(mix(h, 3));
-    if (a + b > 1) {
-      a = 1 - a;
-      b = 1 - b;
-    }
-    const double c = 1 - a - b;
-    to_u[k] = static_cast<float>(part.u[0] * c + part.u[1] * a + part.u[2] * b);
-    to_v[k] = static_cast<float>(part.v[0] * c + part.v[1] * a + part.v[2] * b);
+    point_in_place(part.place, unit_interval(mix(h, 2)), unit_interval(mix(h, 3)), &to_u[k],
+                   &to_v[k]);
     // Drawn so much more often than points spread evenly.
     scale[k] = static_cast<float>(part.area * division.sum() / (part.weight * large.area));
   }
   place_pairs(receiver, source, points, center, offset, samples);
   for (int k = 0; k < 16; ++k) samples.kernel[k] *= scale[k];
+}
+
+double mean_kernel(const EndsBySize& ends, const PairPoints& points) {
+  double sum = 0;
+  for (int k = 0; k < 16; ++k)
+    sum +=
+        point_to_triangle(point_of_small(ends, points, k), ends.small.normal, ends.large.corners);
+  return sum / (16 * ends.large.area);
+}
+
+void scale_kernel(double mean, PairSamples& samples) {
+  double sum = 0;
+  for (float kernel : samples.kernel) sum += kernel;
+  if (!(sum > 0)) return;
+  const float scale = static_cast<float>(mean * 16 / sum);
+  for (float& kernel : samples.kernel) kernel *= scale;
 }
 
 }  // namespace hrad

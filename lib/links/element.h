@@ -11,7 +11,7 @@ struct Element {
   Triangle corners;
   Vec3 normal, centroid;
   double area = 0;
-  double radius = 0;   // of the sphere around the centroid that holds the corners
+  double radius = 0;  // of the sphere around the centroid that holds the corners
   int32_t surface = 0;
   float exposed = 1;
 };
@@ -32,6 +32,16 @@ inline Element element_of(const Forest& forest, const Node& node) {
   e.exposed = node.exposed;
   return e;
 }
+
+// The ends of a link by size: what the smaller sees of the larger takes few points to tell.
+struct EndsBySize {
+  EndsBySize(const Element& receiver, const Element& source)
+      : receiver_smaller(receiver.area <= source.area),
+        small(receiver_smaller ? receiver : source),
+        large(receiver_smaller ? source : receiver) {}
+  bool receiver_smaller;
+  const Element &small, &large;
+};
 
 // The name of an element, whatever the order in which elements were made.
 inline uint64_t key_of(const Forest& forest, const Node& node) {

@@ -5,7 +5,6 @@
 
 #include "base/angle.h"
 #include "links/close_pairs.h"
-#include "links/form_factor.h"
 #include "links/mean_factor.h"
 
 namespace hrad {
@@ -19,28 +18,6 @@ double half_range(const double v[4]) {
   const double low = std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
   const double high = std::max(std::max(v[0], v[1]), std::max(v[2], v[3]));
   return (high - low) * 0.5;
-}
-
-// Brings the mean of the kernel to the known one: what is left to chance is the share that is seen.
-void scale_to(double mean_kernel, PairSamples& samples) {
-  double sum = 0;
-  for (float kernel : samples.kernel) sum += kernel;
-  if (!(sum > 0)) return;
-  const float scale = static_cast<float>(mean_kernel * lanes_per_packet / sum);
-  for (float& kernel : samples.kernel) kernel *= scale;
-}
-
-// The form factor from points of the smaller end to the larger, mean over them.
-double factor_of_points(const Element& receiver, const Element& source, const PairPoints& points) {
-  const bool up = receiver.area <= source.area;
-  const Element &small = up ? receiver : source, &large = up ? source : receiver;
-  double sum = 0;
-  for (int k = 0; k < lanes_per_packet; ++k) {
-    const Vec3 x = up ? small.corners.at(points.receiver_u[k], points.receiver_v[k])
-                      : small.corners.at(points.source_u[k], points.source_v[k]);
-    sum += point_to_triangle(x, small.normal, large.corners);
-  }
-  return sum / lanes_per_packet;
 }
 
 }  // namespace
@@ -86,11 +63,12 @@ uint32_t LinkSampler::move_to_exposed(const Element& element, uint64_t key, floa
 void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t key,
                        LinkEstimate& estimate, DrawnPairs& drawn) const {
   PairPoints points = pattern_of(key);
-  const bool up = receiver.area <= source.area;
-  estimate.close_pairs = estimate.near && is_close(receiver, source);
+  const EndsBySize ends(receiver, source);
   // Of close pairs the points on the larger end are drawn sealed or not.
-  const bool move_receiver = receiver.exposed < 1 && (up || !estimate.close_pairs);
-  const bool move_source = source.exposed < 1 && !(up && estimate.close_pairs);
+  const bool move_small = ends.small.exposed < 1;
+  const bool move_large = ends.large.exposed < 1 && !estimate.close_pairs;
+  const bool move_receiver = ends.receiver_smaller ? move_small : move_large;
+  const bool move_source = ends.receiver_smaller ? move_large : move_small;
   uint32_t receiver_exposed = all_pairs, source_exposed = all_pairs;
   if (move_receiver)
     receiver_exposed = move_to_exposed(receiver, mix(key, 1), points.receiver_u, points.receiver_v);
@@ -103,10 +81,8 @@ void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t 
   if (estimate.close_pairs) {
     draw_close_pairs(receiver, source, key, engine_.center(), engine_.offset(), points,
                      drawn.samples);
-    const bool moved = up ? move_receiver : move_source;
-    scale_to(moved ? factor_of_points(receiver, source, points) / (up ? source : receiver).area
-                   : estimate.factor / source.area,
-             drawn.samples);
+    scale_kernel(move_small ? mean_kernel(ends, points) : estimate.factor / source.area,
+                 drawn.samples);
   } else {
     place_pairs(receiver, source, points, engine_.center(), engine_.offset(), drawn.samples);
   }
@@ -137,7 +113,9 @@ void LinkSampler::begin(const Element& receiver, const Element& source, uint64_t
     estimate.variation = half_range(quarter);
     return;
   }
-  if (receiver.area <= source.area) {
+  const EndsBySize ends(receiver, source);
+  estimate.close_pairs = is_close(ends);
+  if (ends.receiver_smaller) {
     const MeanFactor mean = mean_factor(receiver.corners, receiver.normal, source.corners);
     estimate.factor = mean.mean;
     estimate.mean_error = mean.error;
@@ -179,7 +157,7 @@ void LinkSampler::trace_drawn(const DrawnPairs& drawn, LinkEstimate& estimate) {
 
 void LinkSampler::trace(const Element& receiver, const Element& source, uint64_t key,
                         DrawnPairs& drawn, LinkEstimate& estimate) {
-  if (receiver.exposed < 1 || source.exposed < 1 || (estimate.near && is_close(receiver, source)))
+  if (receiver.exposed < 1 || source.exposed < 1 || estimate.close_pairs)
     draw(receiver, source, key, estimate, drawn);
   trace_drawn(drawn, estimate);
 }

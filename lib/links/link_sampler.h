@@ -20,7 +20,7 @@ struct LinkEstimate {
   double mean_error = 0;     // error of its mean over the receiver, estimated
   bool near = false;         // factor is Lambert's
   double source_area = 0;    // that the pairs are drawn from
-  bool close_pairs = false;  // its pairs are draw_close_pairs'
+  bool close_pairs = false;  // pairs that are traced whole are draw_close_pairs'
   double kernel_sum = 0, visible_sum = 0;  // over the traced pairs
   int pairs = 0;                           // traced pairs; those on sealed points count as blocked
   double visible() const { return kernel_sum > 0 ? visible_sum / kernel_sum : 0; }

@@ -10,13 +10,15 @@
 namespace hrad {
 namespace {
 
-// Packets of rays before a link that matters is taken for clear or dark.
+// Packets of rays before a link that matters is taken for clear, and for dark: what is taken for
+// dark is lost for good.
 constexpr int packets_before_verdict = 4;
 constexpr int packets_before_dark = 8;
+// The most where few of the rays tell anything.
 constexpr int most_packets_before_verdict = 64;
 constexpr int rays_before_verdict = 16 * packets_before_verdict;
 constexpr double least_visible = 1.0 / rays_before_verdict;
-// Fractions this near to 1 are.
+// Visible fractions nearer to 1 than this are 1.
 constexpr double almost_clear = 0.5 / rays_before_verdict;
 
 // Mean of V (1-V) over the fractions V that a shadow's edge brings.
@@ -104,6 +106,14 @@ int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEsti
   const int verdict = visible <= 0 ? packets_before_dark : packets_before_verdict;
   const double least = (in_question ? verdict : 1) / std::max(1e-9, e.telling());
   return std::max(packets, static_cast<int>(std::min<double>(most_packets_before_verdict, least)));
+}
+
+void trace_as_wanted(const OracleSettings& settings, const LinkLoad& load, LinkSampler& sampler,
+                     const Element& receiver, const Element& source, uint64_t key,
+                     DrawnPairs& drawn, LinkEstimate& estimate) {
+  sampler.trace(receiver, source, key, drawn, estimate);
+  const int packets = packets_wanted(settings, load, estimate);
+  if (packets > 1) sampler.trace_more(receiver, source, key, packets, estimate);
 }
 
 }  // namespace hrad

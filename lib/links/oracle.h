@@ -20,12 +20,12 @@ struct OracleSettings {
   // relative to the scene's mean irradiance.
   double mean_variance = 0, point_variance = 0;
   double last_point_variance = 0;  // point_variance of the last round
-  double point_area = 1;    // area at which point_variance holds; smaller elements may err more
+  double point_area = 1;      // area at which point_variance holds; smaller elements may err more
   double point_min_area = 0;  // smaller receivers are not split for the sake of points
   double min_area = 0;        // nor for that of means
-  double near_ratio = 0.4;  // LinkSampler's
+  double near_ratio = 0.4;    // LinkSampler's
   uint64_t seed = 1;
-  int most_packets = 16;    // of visibility for one link
+  int most_packets = 16;  // of visibility for one link, more where little of it is exposed
 };
 
 enum class Decision { keep, split_receiver, descend_source };
@@ -54,5 +54,10 @@ Decision judge_energy(const OracleSettings& settings, const LinkLoad& load);
 // Packets of rays that bring the error of the visible fraction below the budget.
 int packets_wanted(const OracleSettings& settings, const LinkLoad& load,
                    const LinkEstimate& estimate);
+
+// Traces so many packets of the link, from a first one that begin() has drawn.
+void trace_as_wanted(const OracleSettings& settings, const LinkLoad& load, LinkSampler& sampler,
+                     const Element& receiver, const Element& source, uint64_t key,
+                     DrawnPairs& drawn, LinkEstimate& estimate);
 
 }  // namespace hrad

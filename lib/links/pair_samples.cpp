@@ -11,22 +11,8 @@ namespace {
 
 constexpr int pattern_count = 256;
 
-// A point of the sub-triangle `part` (0..15: quarter, then quarter of the quarter) of the unit
-// triangle.
-void point_in_part(int part, double a, double b, float* u, float* v) {
-  Node place;
-  place = child_place(child_place(place, part / 4), part % 4);
-  if (a + b > 1) {
-    a = 1 - a;
-    b = 1 - b;
-  }
-  if (place.inverted) {
-    a = 1 - a;
-    b = 1 - b;
-  }
-  *u = static_cast<float>((place.i + a) / 4);
-  *v = static_cast<float>((place.j + b) / 4);
-}
+// The sub-triangle `part` (0..15: quarter, then quarter of the quarter) of the unit triangle.
+Node sixteenth(int part) { return child_place(child_place(Node{}, part / 4), part % 4); }
 
 // order[0..3]: a permutation of 0..3 that the hash picks.
 void permutation(uint64_t hash, int order[4]) {
@@ -53,10 +39,10 @@ PairPoints make_pattern(int number) {
     // for every quarter of the receiver, so that all sixteen parts are met once on both sides.
     const int source_quarter = shift[(quarter + turn) % 4];
     const int source_part = 4 * source_quarter + within[quarter];
-    point_in_part(k, unit_interval(mix(h, 1)), unit_interval(mix(h, 2)), &p.receiver_u[k],
-                  &p.receiver_v[k]);
-    point_in_part(source_part, unit_interval(mix(h, 3)), unit_interval(mix(h, 4)), &p.source_u[k],
-                  &p.source_v[k]);
+    point_in_place(sixteenth(k), unit_interval(mix(h, 1)), unit_interval(mix(h, 2)),
+                   &p.receiver_u[k], &p.receiver_v[k]);
+    point_in_place(sixteenth(source_part), unit_interval(mix(h, 3)), unit_interval(mix(h, 4)),
+                   &p.source_u[k], &p.source_v[k]);
   }
   return p;
 }
@@ -75,6 +61,20 @@ FloatTriangle lifted(const Element& e, Vec3 center, double offset) {
 }
 
 }  // namespace
+
+void point_in_place(const Node& place, double a, double b, float* u, float* v) {
+  if (a + b > 1) {
+    a = 1 - a;
+    b = 1 - b;
+  }
+  if (place.inverted) {
+    a = 1 - a;
+    b = 1 - b;
+  }
+  const double cells = 1 << place.level;
+  *u = static_cast<float>((place.i + a) / cells);
+  *v = static_cast<float>((place.j + b) / cells);
+}
 
 const PairPoints& pattern_of(uint64_t key) {
   static const std::vector<PairPoints> patterns = [] {

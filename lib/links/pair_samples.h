@@ -29,13 +29,19 @@ struct PairSamples {
 void draw_pairs(const Element& receiver, const Element& source, uint64_t key, Vec3 center,
                 double offset, PairSamples& samples);
 
-// The same with given points.
+// The same with given points: the pairs as packet, and the kernel between them.
 void place_pairs(const Element& receiver, const Element& source, const PairPoints& points,
                  Vec3 center, double offset, PairSamples& samples);
 
 // The points that draw_pairs takes for this key: one in each of the sixteenths on both sides.
 const PairPoints& pattern_of(uint64_t key);
+
+// Pair k of that pattern.
 void pair_points(uint64_t key, int k, double receiver_uv[2], double source_uv[2]);
+
+// (u,v) of the point of a lattice place at (a,b), both from 0 to 1: the unit square is folded along
+// its diagonal, so that even (a,b) give even points.
+void point_in_place(const Node& place, double a, double b, float* u, float* v);
 
 // (u,v) of point k of 16 spread over a triangle, one in each of its sixteenths.
 void spread_point(uint64_t key, int k, double uv[2]);

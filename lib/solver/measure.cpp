@@ -51,8 +51,7 @@ bool dark(const Scene& scene, int32_t patch) {
 
 // One drawn patch, all bands together.
 struct Residual {
-  double square =
-      0;  // of the difference between solved and measured; noise makes it larger or smaller
+  double square = 0;  // of the difference between solved and measured; noise may make it negative
   double solved = 0;  // radiosity squared
   double signed_sum = 0, solved_sum = 0;
   int64_t rays = 0;

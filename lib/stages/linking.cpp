@@ -144,9 +144,7 @@ class PairLinker {
     const LinkLoad load = load_of(p, q, e.factor);
     if (e.factor * load.brightness > tools_.oracle.mean_variance ||
         !LinkSampler::may_probe(receiver, source)) {
-      sampler.trace(receiver, source, key, drawn, e);
-      const int packets = packets_wanted(tools_.oracle, load, e);
-      if (packets > 1) sampler.trace_more(receiver, source, key, packets, e);
+      trace_as_wanted(tools_.oracle, load, sampler, receiver, source, key, drawn, e);
       keep(p, q, e);
       return;
     }

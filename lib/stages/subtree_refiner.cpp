@@ -103,8 +103,7 @@ LinkLoad SubtreeRefiner::load_of(int32_t at, const Link& link, double source_are
   return load;
 }
 
-// An old link, or one that came down from an earlier pass: its weight is known, its geometry is
-// not.
+// An old link, or one that came down from an earlier pass: the weight is known, the geometry isn't.
 void SubtreeRefiner::weigh(int32_t at, Link link) {
   const LinkLoad load = load_of(at, link, state_.forest.area(state_.forest.nodes[link.source]));
   if (surely_good(tools_.oracle, load) || (!load.may_split && !load.may_descend)) {
@@ -231,12 +230,9 @@ void SubtreeRefiner::descend(int32_t at, Link link, double visible) {
 
 LinkEstimate SubtreeRefiner::traced(int32_t at, const Element& source, uint64_t source_key,
                                     NodeId source_id, DrawnPairs& drawn, LinkEstimate begun) {
-  const Element& receiver = element(at);
-  const uint64_t key = sampler_.link_key(work_[at].key, source_key);
-  sampler_.trace(receiver, source, key, drawn, begun);
   const LinkLoad load = load_of(at, {source_id, static_cast<float>(begun.factor)}, source.area);
-  const int packets = packets_wanted(tools_.oracle, load, begun);
-  if (packets > 1) sampler_.trace_more(receiver, source, key, packets, begun);
+  trace_as_wanted(tools_.oracle, load, sampler_, element(at), source,
+                  sampler_.link_key(work_[at].key, source_key), drawn, begun);
   return begun;
 }
 

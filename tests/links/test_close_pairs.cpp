@@ -33,9 +33,9 @@ Vec3 end_of(const PairSamples& s, int k) {
 }
 
 void close_is_nearer_than_its_size() {
-  CHECK(is_close(on_floor, wall) && is_close(wall, on_floor));
-  CHECK(is_close(opposite, wall));
-  CHECK(!is_close(distant, wall) && !is_close(wall, distant));
+  CHECK(is_close({on_floor, wall}) && is_close({wall, on_floor}));
+  CHECK(is_close({opposite, wall}));
+  CHECK(!is_close({distant, wall}) && !is_close({wall, distant}));
 }
 
 // Sums over many packets against sums of Lambert's formula over the same starting points.
