@@ -9,8 +9,6 @@
 namespace hrad {
 namespace {
 
-constexpr int32_t lattice_size = 1 << max_level;
-
 // Surfaces whose normals agree this well and that share an edge are taken as one plane.
 constexpr double same_plane = 1 - 1e-9;
 
@@ -38,20 +36,6 @@ int32_t find_root(std::vector<int32_t>& parent, int32_t k) {
 }
 
 }  // namespace
-
-void lattice_corners(const Node& n, LatticePoint corner[3]) {
-  const int32_t step = 1 << (max_level - n.level);
-  const int32_t i = n.i * step, j = n.j * step;
-  if (!n.inverted) {
-    corner[0] = {i, j};
-    corner[1] = {i + step, j};
-    corner[2] = {i, j + step};
-  } else {
-    corner[0] = {i + step, j + step};
-    corner[1] = {i, j + step};
-    corner[2] = {i + step, j};
-  }
-}
 
 CornerIndex::CornerIndex(const Forest& forest) {
   const Scene& scene = *forest.scene;

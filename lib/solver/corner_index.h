@@ -7,17 +7,9 @@
 #include <vector>
 
 #include "base/hash.h"
-#include "hierarchy/forest.h"
+#include "hierarchy/lattice.h"
 
 namespace hrad {
-
-// A point of a surface's lattice at the finest level.
-struct LatticePoint {
-  int32_t i, j;
-};
-
-// The corners of an element in the order of Forest::triangle.
-void lattice_corners(const Node& place, LatticePoint corner[3]);
 
 class CornerIndex {
  public:

@@ -228,10 +228,7 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
       if (!lost && forest.root(hit.patch, side) >= 0) {
         // Where the back of something lies flat on this side, it is that back which is met.
         const Vec3 at = scene.triangle(hit.patch).at(hit.u, hit.v);
-        if (!tools.exposure.can_be_sealed(hit.patch, side) ||
-            !tools.exposure.sealed(hit.patch, side, at) ||
-            tools.exposure.overlaid(hit.patch, side, at))
-          continue;
+        if (!tools.exposure.under_a_back(hit.patch, side, at)) continue;
       }
       if (!lost) ++s.back_rays;
       const double chance = weights[pick] / draw.total();

@@ -63,8 +63,7 @@ void Solver::Solution::prepare_queries() {
 const Reconstruction& Solver::reconstruction() const {
   Solution& s = *solution_;
   if (!s.reconstruction)
-    s.reconstruction = std::make_unique<Reconstruction>(s.state.forest, s.state.bands, s.leaves,
-                                                        s.state.irradiance);
+    s.reconstruction = std::make_unique<Reconstruction>(s.state, s.leaves);
   return *s.reconstruction;
 }
 

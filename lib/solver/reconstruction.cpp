@@ -24,34 +24,58 @@ void straighten(const CornerIndex& index, int32_t surface, LatticePoint a, Latti
   straighten(index, surface, middle, b, bands, value);
 }
 
+constexpr int most_bands = 16;
+
+// Irradiance that arrives evenly over a cell or leaf; the mean of a small one says more about its
+// corner than that of a large one, whose middle is farther away.
+double even_light(const State& state, NodeId id, double* values) {
+  const Node& node = state.forest.nodes[id];
+  const bool by_rows = !state.cells.empty();
+  for (int b = 0; b < state.bands; ++b) {
+    const size_t at = static_cast<size_t>(id) * state.bands + b;
+    values[b] = by_rows ? state.gathered[at] - mean_of_corners(state.direct, id, b, state.bands)
+                        : state.irradiance[at];
+  }
+  return node.exposed / std::sqrt(state.forest.area(node));
+}
+
+// Irradiance at a corner. A sealed one has none of its own and takes what the others have.
+double direct_light(const State& state, NodeId leaf, int corner, double* values) {
+  const CornerLight& direct = state.direct;
+  const int32_t number = direct.of_leaf[leaf][corner];
+  for (int b = 0; b < state.bands; ++b) {
+    const double mean = mean_of_corners(direct, leaf, b, state.bands);
+    values[b] = number >= 0 ? direct.irradiance[static_cast<size_t>(number) * state.bands + b] : mean;
+    // On from what is known half way.
+    if (direct.half_way[leaf]) values[b] = std::max(0.0, std::min(2 * mean, 2 * values[b] - mean));
+  }
+  return number >= 0 ? 1 : state.forest.nodes[leaf].exposed > 0 ? 1e-6 : 1e-12;
+}
+
 }  // namespace
 
-Reconstruction::Reconstruction(const Forest& forest, int bands, const std::vector<NodeId>& leaves,
-                               const std::vector<float>& irradiance)
-    : forest_(forest), bands_(bands), number_of_leaf_(forest.nodes.size(), -1) {
+LinearField::LinearField(const Forest& forest, int bands, const std::vector<NodeId>& elements,
+                         const Value& value_of)
+    : forest_(forest), bands_(bands), number_of_element_(forest.nodes.size(), -1) {
   CornerIndex index(forest);
-  corner_.resize(leaves.size());
-  for (size_t k = 0; k < leaves.size(); ++k) {
-    const Node& leaf = forest.nodes[leaves[k]];
-    number_of_leaf_[leaves[k]] = static_cast<int32_t>(k);
+  corner_.resize(elements.size());
+  for (size_t k = 0; k < elements.size(); ++k) {
+    const Node& element = forest.nodes[elements[k]];
+    number_of_element_[elements[k]] = static_cast<int32_t>(k);
     LatticePoint corner[3];
-    lattice_corners(leaf, corner);
-    for (int c = 0; c < 3; ++c) corner_[k][c] = index.number(leaf.surface, corner[c]);
+    lattice_corners(element, corner);
+    for (int c = 0; c < 3; ++c) corner_[k][c] = index.number(element.surface, corner[c]);
   }
   const size_t corners = static_cast<size_t>(index.count());
   std::vector<double> sum(corners * bands, 0.0), weight(corners, 0.0);
-  for (size_t k = 0; k < leaves.size(); ++k) {
-    const Node& leaf = forest.nodes[leaves[k]];
-    // The mean of a small leaf says more about its corner than that of a large one, whose middle is
-    // farther away: weights fall with the size.
-    const double nearness = leaf.exposed / std::sqrt(forest.area(leaf));
-    for (int32_t c : corner_[k]) {
-      weight[c] += nearness;
-      for (int b = 0; b < bands; ++b)
-        sum[static_cast<size_t>(c) * bands + b] +=
-            nearness * irradiance[static_cast<size_t>(leaves[k]) * bands + b];
+  double values[most_bands];
+  for (size_t k = 0; k < elements.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      const double share = value_of(elements[k], c, values);
+      const size_t at = static_cast<size_t>(corner_[k][c]);
+      weight[at] += share;
+      for (int b = 0; b < bands; ++b) sum[at * bands + b] += share * values[b];
     }
-  }
   value_.resize(corners * bands);
   for (size_t c = 0; c < corners; ++c)
     for (int b = 0; b < bands; ++b)
@@ -59,43 +83,72 @@ Reconstruction::Reconstruction(const Forest& forest, int bands, const std::vecto
           static_cast<float>(weight[c] > 0 ? sum[c * bands + b] / weight[c] : 0.0);
 
   // From the longest edges to the shortest: the ends of an edge are settled before what hangs in it.
-  std::vector<int32_t> order(leaves.size());
+  std::vector<int32_t> order(elements.size());
   for (size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int32_t>(k);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
-    return forest.nodes[leaves[a]].level < forest.nodes[leaves[b]].level;
+    return forest.nodes[elements[a]].level < forest.nodes[elements[b]].level;
   });
   for (int32_t k : order) {
-    const Node& leaf = forest.nodes[leaves[k]];
+    const Node& element = forest.nodes[elements[k]];
     LatticePoint corner[3];
-    lattice_corners(leaf, corner);
+    lattice_corners(element, corner);
     for (int c = 0; c < 3; ++c)
-      straighten(index, leaf.surface, corner[c], corner[(c + 1) % 3], bands, value_);
+      straighten(index, element.surface, corner[c], corner[(c + 1) % 3], bands, value_);
   }
 }
 
-void Reconstruction::corners(NodeId leaf, double* out) const {
-  const auto& corner = corner_[number_of_leaf_[leaf]];
+void LinearField::corners(NodeId element, double* out) const {
+  const auto& corner = corner_numbers(element);
   for (int c = 0; c < 3; ++c)
     for (int b = 0; b < bands_; ++b)
       out[c * bands_ + b] = value_[static_cast<size_t>(corner[c]) * bands_ + b];
 }
 
-void Reconstruction::at(NodeId leaf, double u, double v, double* out) const {
-  const Node& n = forest_.nodes[leaf];
+void LinearField::add_at(NodeId element, double u, double v, double* out) const {
+  const Node& n = forest_.nodes[element];
   const double scale = static_cast<double>(1 << n.level);
   double x = u * scale - n.i, y = v * scale - n.j;
   if (n.inverted) {
     x = 1 - x;
     y = 1 - y;
   }
-  const auto& corner = corner_[number_of_leaf_[leaf]];
+  const auto& corner = corner_numbers(element);
   const double weight[3] = {1 - x - y, x, y};
-  for (int b = 0; b < bands_; ++b) {
-    double value = 0;
+  for (int b = 0; b < bands_; ++b)
     for (int c = 0; c < 3; ++c)
-      value += weight[c] * value_[static_cast<size_t>(corner[c]) * bands_ + b];
-    out[b] = std::max(0.0, value);
-  }
+      out[b] += weight[c] * value_[static_cast<size_t>(corner[c]) * bands_ + b];
+}
+
+namespace {
+
+// Light that arrives evenly over cells is made linear on these first, then taken at the corners of
+// the leaves.
+LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
+  const Forest& forest = state.forest;
+  const auto even = [&](NodeId id, int, double* values) { return even_light(state, id, values); };
+  if (state.cells.empty()) return LinearField(forest, state.bands, leaves, even);
+  const LinearField on_cells(forest, state.bands, state.cells, even);
+  return LinearField(forest, state.bands, leaves, [&](NodeId leaf, int c, double* values) {
+    const double weight = direct_light(state, leaf, c, values);
+    NodeId cell = leaf;
+    while (!on_cells.has(cell)) cell = forest.nodes[cell].parent;
+    LatticePoint corner[3];
+    lattice_corners(forest.nodes[leaf], corner);
+    on_cells.add_at(cell, static_cast<double>(corner[c].i) / lattice_size,
+                    static_cast<double>(corner[c].j) / lattice_size, values);
+    return weight;
+  });
+}
+
+}  // namespace
+
+Reconstruction::Reconstruction(const State& state, const std::vector<NodeId>& leaves)
+    : bands_(state.bands), field_(field_of(state, leaves)) {}
+
+void Reconstruction::at(NodeId leaf, double u, double v, double* out) const {
+  std::fill(out, out + bands_, 0.0);
+  field_.add_at(leaf, u, v, out);
+  for (int b = 0; b < bands_; ++b) out[b] = std::max(0.0, out[b]);
 }
 
 }  // namespace hrad

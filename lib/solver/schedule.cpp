@@ -26,6 +26,20 @@ constexpr double power_share = 1.0 / 20000;
 // Thresholds fall by this factor from round to round (in power; errors by its root).
 constexpr double fall = 4;
 
+// Rows: what serves this accuracy. Cells shrink with the root of the accuracy and have rays in
+// proportion to its inverse, so that the rays over an area grow with its inverse square, and the noise
+// of a patch falls with it.
+constexpr double row_accuracy = 0.02;
+constexpr double finest_of_rows = 0.004;
+constexpr int64_t most_of_fine_pairs = 200;
+constexpr double row_leg = 0.25;         // of the mean distance between surfaces
+constexpr double fewest_cells = 1000, cells_of_a_surface = 64, cells_of_a_scene = 2000;
+constexpr double row_variation = 0.03;
+constexpr double row_rays = 64, least_row_rays = 16, fewest_rays = 4;
+constexpr double direct_tolerance = 0.1, largest_tolerance = 0.2;
+constexpr double least_bright = 0.05;
+constexpr double least_cell_share = 1.0 / 256, least_element_share = 1.0 / 1024;
+
 }  // namespace
 
 OracleSettings oracle_of_round(const Params& params, const State& state, int round, double scale) {
@@ -64,6 +78,39 @@ OracleSettings oracle_of_round(const Params& params, const State& state, int rou
   s.near_ratio = std::min(0.5, 3 * std::sqrt(accuracy));
   s.seed = static_cast<uint64_t>(params.seed);
   s.most_packets = 16;
+  return s;
+}
+
+bool by_rows(const Params& params, const Forest& forest, const Inspection& inspection) {
+  if (params.linking != "auto") return params.linking == "rows";
+  // Thresholds of links ask for links.
+  if (params.oracle == "energy" || params.tolerance > 0) return false;
+  // Form factors hold where patches are too small for rays.
+  if (2 * inspection.unresolved > forest.surface_count()) return false;
+  // Rays grow with the inverse square of the accuracy, links between few patches much less.
+  return params.accuracy >= finest_of_rows || forest.surface_count() > most_of_fine_pairs;
+}
+
+RowSettings rows_of(const Params& params, const Forest& forest, double distance, double scale) {
+  const double ratio = params.accuracy * scale / row_accuracy;
+  const double leg = distance * row_leg * std::sqrt(ratio);
+  RowSettings s;
+  // Surfaces that all but touch must not make cells without number.
+  double area = 0;
+  for (const Surface& surface : forest.surfaces) area += surface.area;
+  const double most_cells =
+      cells_of_a_surface * static_cast<double>(forest.surface_count()) + cells_of_a_scene / ratio;
+  s.cell_area = std::max(std::min(leg * leg / 2, area / fewest_cells), area / most_cells);
+  s.least_cell_area = s.cell_area * least_cell_share;
+  s.cell_variation = row_variation * ratio;
+  s.rays_of_cell = static_cast<int>(std::ceil(row_rays / ratio));
+  s.least_rays = static_cast<int>(std::ceil(std::max(fewest_rays, least_row_rays / ratio)));
+  s.tolerance = std::min(direct_tolerance * ratio, largest_tolerance);
+  s.shadow_noise = s.tolerance / 2;
+  s.least_bright = least_bright;
+  s.grid_size = distance / 2;
+  s.min_area = params.min_area > 0 ? params.min_area : s.cell_area * least_element_share;
+  s.seed = static_cast<uint64_t>(params.seed);
   return s;
 }
 

@@ -4,7 +4,9 @@
 
 #include "links/oracle.h"
 #include "solver/params.h"
+#include "stages/rows.h"
 #include "stages/state.h"
+#include "visibility/inspection.h"
 
 namespace hrad {
 
@@ -16,6 +18,12 @@ constexpr int first_rounds = 5;
 // that the accuracy was missed. Thresholds fall to their last value over the first rounds
 // (multigridding: Hanrahan, Saltzman, Aupperle 1991, Section 4.3).
 OracleSettings oracle_of_round(const Params& params, const State& state, int round, double scale);
+
+// True when light is linked by rows: asked for, or chosen by linking=auto.
+bool by_rows(const Params& params, const Forest& forest, const Inspection& inspection);
+
+// Rows of rays; distance: the mean one between surfaces.
+RowSettings rows_of(const Params& params, const Forest& forest, double distance, double scale);
 
 // Share of the transported light that may be missing when the sweeps of a round stop.
 double sweep_tolerance(const Params& params, int round);

@@ -13,6 +13,8 @@
 #include "stages/gather.h"
 #include "stages/linking.h"
 #include "stages/refine.h"
+#include "stages/rows.h"
+#include "stages/state_memory.h"
 #include "stages/sweep.h"
 
 namespace hrad {
@@ -57,6 +59,7 @@ class Solver::Run {
         solution_(*solver.solution_),
         state_(solver.solution_->state),
         params_(solver.params_),
+        by_rows_(by_rows(params_, state_.forest, solution_.inspection)),
         clock_([&solver](const Progress& p) {
           return !solver.stop_requested_.load(std::memory_order_relaxed) &&
                  (!solver.progress_ || solver.progress_(p));
@@ -81,11 +84,12 @@ class Solver::Run {
         if (!round()) return Status::stopped;
       const Status status = finish();
       if (!tighten()) return status;
+      if (!solution_.linked && !link()) return Status::stopped;
     }
   }
 
  private:
-  int rounds_wanted() const { return first_rounds + solution_.tightened; }
+  int rounds_wanted() const { return by_rows_ ? 0 : first_rounds + solution_.tightened; }
   bool out_of_sweeps() const { return solver_.stats_.iterations >= params_.max_iterations; }
 
   StageTools tools(int oracle_round) {
@@ -113,18 +117,32 @@ class Solver::Run {
 
   bool link() {
     const auto start = std::chrono::steady_clock::now();
-    clock_.begin("linking", 0.02, 0.25);
-    StageTools stage = tools(0);
-    measure_exposure(state_, stage);
-    reset_to_emission(state_);
-    state_.links.resize(state_.forest.nodes.size());
-    const bool done = link_pairs(state_, stage, expected_brightness(state_));
+    const bool done = by_rows_ ? link_by_rows() : link_by_pairs();
     solver_.stats_.seconds_linking +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!done) return false;
     solution_.linked = true;
     solution_.rounds_done = 0;
-    return sweep(0);
+    return sweep(by_rows_ ? first_rounds : 0);
+  }
+
+  bool link_by_pairs() {
+    clock_.begin("linking", 0.02, 0.25);
+    StageTools stage = tools(0);
+    measure_exposure(state_, stage);
+    reset_to_emission(state_);
+    state_.links.resize(state_.forest.nodes.size());
+    return link_pairs(state_, stage, expected_brightness(state_));
+  }
+
+  bool link_by_rows() {
+    clear(state_);
+    clock_.begin("linking", 0.02, 0.85);
+    const StageTools stage = tools(first_rounds);
+    measure_exposure(state_, stage);
+    return link_rows(state_, stage,
+                     rows_of(params_, state_.forest, solution_.inspection.mean_distance,
+                             solution_.scale));
   }
 
   bool round() {
@@ -208,6 +226,7 @@ class Solver::Run {
     solution_.scale *= std::max(0.5, std::min(0.7, 0.7 * params_.accuracy / error));
     ++solution_.tightened;
     solution_.finished = false;
+    if (by_rows_) solution_.linked = false;
     return true;
   }
 
@@ -215,12 +234,13 @@ class Solver::Run {
   Solution& solution_;
   State& state_;
   const Params& params_;
+  const bool by_rows_;
   ProgressClock clock_;
 };
 
 Status Solver::solve() {
-  if (params_.linking != "auto" && params_.linking != "pairs")
-    fail(Status::unsupported, "linking=%s is not in this version: use linking=pairs or auto",
+  if (params_.linking == "clusters")
+    fail(Status::unsupported, "linking=%s is not in this version: use linking=rows, pairs or auto",
          params_.linking.c_str());
   if (params_.refine == 0 && !solved())
     fail(Status::state, "there are no links to sweep over: solve once with refine=1 before");

@@ -84,6 +84,7 @@ Stats Solver::stats() const {
   s.pairs = state.pairs;
   s.links = 0;
   for (const LinkRun& run : state.links) s.links += run.count();
+  s.links += static_cast<int64_t>(state.direct.links.size());
   s.link_bytes = s.links * static_cast<int64_t>(sizeof(Link));
   s.node_bytes = s.elements * static_cast<int64_t>(sizeof(Node) + sizeof(LinkRun) +
                                                    3 * sizeof(float) * state.bands);
@@ -123,6 +124,14 @@ uint64_t Solver::state_hash() const {
       hash.add(static_cast<uint64_t>(link.source));
       hash.add(link.weight);
     }
+  }
+  const CornerLight& direct = state.direct;
+  for (const auto& corners : direct.of_leaf)
+    for (int32_t corner : corners) hash.add(static_cast<uint64_t>(corner + 1));
+  for (int64_t first : direct.first) hash.add(static_cast<uint64_t>(first));
+  for (const Link& link : direct.links) {
+    hash.add(static_cast<uint64_t>(link.source));
+    hash.add(link.weight);
   }
   for (float value : state.radiosity) hash.add(value);
   return hash.value();

@@ -23,23 +23,39 @@ void gather_run(Span<const Link> links, const float* radiosity, int bands_at_run
   for (int band = 0; band < bands; ++band) gathered[band] = static_cast<float>(sum[band]);
 }
 
+template <class Body>
+void for_each_run(int64_t count, ThreadTeam& team, const Body& body) {
+  team.for_each((count + nodes_of_a_task - 1) / nodes_of_a_task, [&](int64_t task, int) {
+    const int64_t end = std::min(count, (task + 1) * nodes_of_a_task);
+    for (int64_t k = task * nodes_of_a_task; k < end; ++k) body(static_cast<size_t>(k));
+  });
+}
+
+void gather_run(Span<const Link> links, const State& state, float* out) {
+  if (state.bands == 3)
+    gather_run<3>(links, state.radiosity.data(), 3, out);
+  else if (state.bands == 1)
+    gather_run<1>(links, state.radiosity.data(), 1, out);
+  else
+    gather_run<0>(links, state.radiosity.data(), state.bands, out);
+}
+
 }  // namespace
 
 void gather(State& state, ThreadTeam& team) {
-  const int64_t nodes = static_cast<int64_t>(state.forest.nodes.size());
-  const int bands = state.bands;
-  team.for_each((nodes + nodes_of_a_task - 1) / nodes_of_a_task, [&](int64_t task, int) {
-    const int64_t end = std::min(nodes, (task + 1) * nodes_of_a_task);
-    for (int64_t k = task * nodes_of_a_task; k < end; ++k) {
-      const Span<const Link> links = state.links[k].links();
-      float* out = &state.gathered[static_cast<size_t>(k) * bands];
-      if (bands == 3)
-        gather_run<3>(links, state.radiosity.data(), bands, out);
-      else if (bands == 1)
-        gather_run<1>(links, state.radiosity.data(), bands, out);
-      else
-        gather_run<0>(links, state.radiosity.data(), bands, out);
-    }
+  const size_t bands = static_cast<size_t>(state.bands);
+  CornerLight& direct = state.direct;
+  for_each_run(static_cast<int64_t>(direct.place.size()), team, [&](size_t k) {
+    const Span<const Link> links(direct.links.data() + direct.first[k],
+                                 static_cast<size_t>(direct.first[k + 1] - direct.first[k]));
+    gather_run(links, state, &direct.irradiance[k * bands]);
+  });
+  for_each_run(static_cast<int64_t>(state.forest.nodes.size()), team, [&](size_t k) {
+    gather_run(state.links[k].links(), state, &state.gathered[k * bands]);
+    // Light is linear between the corners of a leaf: its mean is theirs.
+    for (int b = 0; b < state.bands && !direct.of_leaf.empty(); ++b)
+      state.gathered[k * bands + b] += static_cast<float>(
+          mean_of_corners(direct, static_cast<NodeId>(k), b, state.bands));
   });
 }
 

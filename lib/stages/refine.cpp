@@ -6,6 +6,7 @@
 
 #include "stages/state_memory.h"
 #include "stages/subtree_refiner.h"
+#include "stages/sweep.h"
 
 namespace hrad {
 namespace {
@@ -72,18 +73,6 @@ void store(State& state, SubtreeResult& result, std::vector<Task>& next) {
     }
 }
 
-// New elements know better than their parents what is sealed.
-void pull_exposure(State& state) {
-  Forest& forest = state.forest;
-  for (size_t k = forest.nodes.size(); k-- > 0;) {
-    Node& node = forest.nodes[k];
-    if (node.first_child < 0) continue;
-    const Node* child = &forest.nodes[node.first_child];
-    node.exposed = (child[0].exposed + child[1].exposed + child[2].exposed + child[3].exposed) / 4;
-    if (node.exposed <= 0) state.links[k].assign({});
-  }
-}
-
 }  // namespace
 
 bool refine_links(State& state, const StageTools& tools, const Brightness& brightness) {
@@ -123,7 +112,11 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
     finished += static_cast<int64_t>(tasks.size());
     tasks = std::move(next);
   }
-  pull_exposure(state);
+  pull_exposure(state.forest);
+  // What turned out to be sealed all over receives nothing.
+  for (size_t k = 0; k < state.forest.nodes.size(); ++k)
+    if (state.forest.nodes[k].exposed <= 0 && !state.forest.is_leaf(static_cast<NodeId>(k)))
+      state.links[k].assign({});
   return true;
 }
 

@@ -2,6 +2,7 @@
 // Floor 7 (stages).
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -17,12 +18,40 @@
 
 namespace hrad {
 
+// Light straight from bright emitters (linking=rows), known at the corners of the leaves and linear
+// between them. No corner is shared by two surfaces.
+struct CornerLight {
+  // Per node the numbers of its corners in the order of Forest::triangle; -1: a corner without light
+  // of its own, sealed, or a node that is no leaf. Empty in other linking methods.
+  std::vector<std::array<int32_t, 3>> of_leaf;
+  // Per node 1: these lie not at the corners but half way to the middle.
+  std::vector<uint8_t> half_way;
+  std::vector<int64_t> first;     // per corner and one more: its run of links
+  std::vector<Link> links;        // from roots of emitters
+  std::vector<Vec3> place;        // per corner: where it was sampled
+  std::vector<float> irradiance;  // per corner and band
+};
+
+// Mean of the light at the corners of a leaf, one band; none at sealed ones.
+inline double mean_of_corners(const CornerLight& direct, NodeId leaf, int band, int bands) {
+  double sum = 0;
+  int count = 0;
+  for (int32_t corner : direct.of_leaf[leaf]) {
+    if (corner < 0) continue;
+    sum += direct.irradiance[static_cast<size_t>(corner) * bands + band];
+    ++count;
+  }
+  return count ? sum / count : 0;
+}
+
 struct State {
   State(const Scene& scene) : forest(scene), bands(scene.bands) {}
 
   Forest forest;
   int bands;
   LinkTable links;                // per receiver
+  std::vector<NodeId> cells;      // linking=rows: the elements that own rows, all surfaces covered
+  CornerLight direct;
   std::vector<float> radiosity;   // per node and band: mean over the exposed part
   std::vector<float> irradiance;  // likewise
   std::vector<float> gathered;    // irradiance through the node's own links alone

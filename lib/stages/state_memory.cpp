@@ -10,7 +10,22 @@ int64_t bytes_of(const State& state) {
                   state.gathered.capacity()) *
                      sizeof(float);
   for (const LinkRun& run : state.links) bytes += static_cast<size_t>(run.count()) * sizeof(Link);
+  const CornerLight& direct = state.direct;
+  bytes += state.cells.capacity() * sizeof(NodeId) + direct.half_way.capacity() + direct.of_leaf.capacity() * sizeof direct.of_leaf[0] +
+           direct.first.capacity() * sizeof direct.first[0] + direct.links.capacity() * sizeof(Link) +
+           direct.place.capacity() * sizeof(Vec3) + direct.irradiance.capacity() * sizeof(float);
   return static_cast<int64_t>(bytes);
+}
+
+void clear(State& state) {
+  const int64_t before = bytes_of(state);
+  state.forest = Forest(*state.forest.scene);
+  state.links = LinkTable();
+  state.cells = std::vector<NodeId>();
+  state.direct = CornerLight();
+  for (auto* light : {&state.radiosity, &state.irradiance, &state.gathered})
+    *light = std::vector<float>();
+  state.memory.take(bytes_of(state) - before, "");
 }
 
 }  // namespace hrad

@@ -10,6 +10,9 @@ namespace hrad {
 // Bytes of elements, of their light and of their links.
 int64_t bytes_of(const State& state);
 
+// Back to the patches alone, and their memory.
+void clear(State& state);
+
 // Counts what a stage uses for a while, and at its end what the solution grew by instead.
 class StageMemory {
  public:
@@ -24,16 +27,18 @@ class StageMemory {
     taken_ += bytes;
   }
 
-  // Of a stage that was carried to its end: the solution as it is now stays counted.
+  // The solution as it is now stays counted, whatever was taken for the time being is not: of a stage,
+  // or a step of one, that was carried to its end.
   void settle() {
     const int64_t now = bytes_of(state_);
     take(now - before_ - taken_.load(), "links and elements");
     taken_ = 0;
+    before_ = now;
   }
 
  private:
   State& state_;
-  const int64_t before_;
+  int64_t before_;
   std::atomic<int64_t> taken_{0};
 };
 

@@ -114,6 +114,15 @@ void push_pull(State& state, ThreadTeam& team) {
   });
 }
 
+void pull_exposure(Forest& forest) {
+  for (size_t k = forest.nodes.size(); k-- > 0;) {
+    Node& node = forest.nodes[k];
+    if (node.first_child < 0) continue;
+    const Node* child = &forest.nodes[node.first_child];
+    node.exposed = (child[0].exposed + child[1].exposed + child[2].exposed + child[3].exposed) / 4;
+  }
+}
+
 void reset_to_emission(State& state) {
   const Scene& scene = *state.forest.scene;
   const size_t count = state.forest.nodes.size();

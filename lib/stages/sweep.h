@@ -10,6 +10,9 @@ namespace hrad {
 // exposed part; a node sealed all over has B = E and H = 0.
 void push_pull(State& state, ThreadTeam& team);
 
+// New elements know better than their parents what is sealed: these take the mean of their children.
+void pull_exposure(Forest& forest);
+
 // B = E, H = 0 everywhere: where every solve starts.
 void reset_to_emission(State& state);
 

@@ -67,6 +67,10 @@ double tilt_of(const Triangle& triangle, Vec3 direction) {
   return std::fabs(dot(normalized(triangle.area_vector()), direction));
 }
 
+bool meets_front(const ExactRay& ray, int32_t patch) {
+  return dot(ray.scene.triangle(patch).area_vector(), ray.direction) < 0;
+}
+
 bool is_nearer(const RayQuery& query, int32_t patch, int32_t than) {
   if (than < 0) return true;
   const ExactRay& ray = *static_cast<const ExactRay*>(query.context);
@@ -74,7 +78,11 @@ bool is_nearer(const RayQuery& query, int32_t patch, int32_t than) {
   const double other = exact_distance(ray.scene.triangle(than), ray.origin, ray.direction);
   const double tilt = std::min(tilt_of(ray.scene.triangle(patch), ray.direction),
                                tilt_of(ray.scene.triangle(than), ray.direction));
-  if (std::fabs(t - other) * tilt <= ray.tie) return patch < than;
+  if (std::fabs(t - other) * tilt <= ray.tie) {
+    // The two sides of a sheet: light meets the one that faces it.
+    const bool front = meets_front(ray, patch);
+    return front != meets_front(ray, than) ? front : patch < than;
+  }
   return t < other;
 }
 

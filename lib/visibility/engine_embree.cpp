@@ -2,7 +2,10 @@
 // speed. Its scenes are robust: without that, hits differ between instruction sets. Floor 4
 // (visibility).
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #if HRAD_WITH_EMBREE >= 4
 #include <embree4/rtcore.h>
@@ -44,6 +47,7 @@ class EmbreeEngine final : public VisibilityEngine {
     return true;
   }
   void build();
+  void find_sheets();
   void check(const char* step) const {
     const RTCError error = rtcGetDeviceError(device_);
     if (error == RTC_ERROR_NONE) return;
@@ -59,6 +63,9 @@ class EmbreeEngine final : public VisibilityEngine {
   RTCDevice device_ = nullptr;
   RTCScene geometry_scene_ = nullptr;
   std::vector<int32_t> patches_;  // of each of Embree's primitives
+  // Per patch the one with the same corners that faces the other way, -1: none. Embree may report
+  // either side of such a sheet.
+  std::vector<int32_t> other_side_;
   int64_t bytes_ = 0;             // changed while building alone, by one thread
 };
 
@@ -72,6 +79,29 @@ EmbreeEngine::EmbreeEngine(const Scene& scene) : scene_(scene) {
   }
 }
 
+void EmbreeEngine::find_sheets() {
+  using Place = std::array<double, 9>;
+  std::vector<std::pair<Place, int32_t>> places;
+  for (int32_t patch : patches_) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (int c = 0; c < 3; ++c) {
+      const Vec3& v = scene_.vertices[scene_.corners[patch][c]];
+      corners[c] = {v.x, v.y, v.z};
+    }
+    std::sort(corners.begin(), corners.end());
+    Place place;
+    for (int k = 0; k < 9; ++k) place[k] = corners[k / 3][k % 3];
+    places.emplace_back(place, patch);
+  }
+  std::sort(places.begin(), places.end());
+  other_side_.assign(static_cast<size_t>(scene_.patch_count()), -1);
+  for (size_t k = 1; k < places.size(); ++k) {
+    if (places[k].first != places[k - 1].first) continue;
+    other_side_[places[k].second] = places[k - 1].second;
+    other_side_[places[k - 1].second] = places[k].second;
+  }
+}
+
 void EmbreeEngine::build() {
   device_ = rtcNewDevice("threads=1,user_threads=1");
   if (!device_) fail(Status::internal, "Embree can't open a device");
@@ -81,6 +111,7 @@ void EmbreeEngine::build() {
   rtcSetSceneBuildQuality(geometry_scene_, RTC_BUILD_QUALITY_MEDIUM);
   for (int64_t patch = 0; patch < scene_.patch_count(); ++patch)
     if (!scene_.has(patch, patch_dropped)) patches_.push_back(static_cast<int32_t>(patch));
+  find_sheets();
   if (!patches_.empty()) {
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(
@@ -170,8 +201,10 @@ Hit EmbreeEngine::nearest(Vec3 origin, Vec3 direction, double t_min) const {
   rtcIntersect1(geometry_scene_, &context, &query);
 #endif
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return exact_hit(scene_, patches_[query.hit.primID], origin, direction,
-                   (static_cast<double>(query.ray.tfar) + ahead) / size);
+  const double t = (static_cast<double>(query.ray.tfar) + ahead) / size;
+  const Hit hit = exact_hit(scene_, patches_[query.hit.primID], origin, direction, t);
+  const int32_t other = hit.back ? other_side_[hit.patch] : -1;
+  return other < 0 ? hit : exact_hit(scene_, other, origin, direction, t);
 }
 
 }  // namespace

@@ -28,6 +28,11 @@ class Exposure {
   // A surface that faces the same way lies on this point, as a rug on a floor: what would arrive here
   // arrives there. Any thread.
   bool overlaid(int64_t patch, int32_t side, Vec3 point) const;
+  // The back of something lies flat on this point: a ray that ends here met that black back. Any
+  // thread.
+  bool under_a_back(int64_t patch, int32_t side, Vec3 point) const {
+    return can_be_sealed(patch, side) && sealed(patch, side, point) && !overlaid(patch, side, point);
+  }
   // The same by contact alone, solids left aside.
   bool pressed(int64_t patch, int32_t side, Vec3 point) const;
 

@@ -45,6 +45,9 @@ class Rays {
     }
   }
 
+  double mean_distance() const {
+    return distances_ ? distance_ / static_cast<double>(distances_) : engine_.radius();
+  }
   double back_share() const { return rays_ ? static_cast<double>(backs_) / rays_ : 0; }
 
  private:
@@ -62,6 +65,10 @@ class Rays {
         Frame(normal).cosine_direction(unit_interval(mix(h, 3)), unit_interval(mix(h, 4)));
     const Hit hit = engine_.nearest(point + normal * engine_.offset(), direction, 0);
     ++rays_;
+    if (!also_in_solids && hit.patch >= 0) {
+      distance_ += hit.t;
+      ++distances_;
+    }
     backs_ += hit.patch >= 0 && hit.back && exchanges(scene_, hit.patch) &&
               !scene_.has(hit.patch, patch_two_sided);
   }
@@ -69,7 +76,8 @@ class Rays {
   const Scene& scene_;
   const VisibilityEngine& engine_;
   const Exposure& exposure_;
-  int64_t rays_ = 0, backs_ = 0;
+  int64_t rays_ = 0, backs_ = 0, distances_ = 0;
+  double distance_ = 0;
 };
 
 }  // namespace
@@ -99,6 +107,7 @@ Inspection inspect(const Scene& scene, const VisibilityEngine& engine, const Exp
   rays.shoot(emitters, area_of_emitters, true);
   rays.shoot(all, area_of_all, false);
   result.back_share = rays.back_share();
+  result.mean_distance = rays.mean_distance();
   return result;
 }
 

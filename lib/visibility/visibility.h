@@ -21,6 +21,16 @@ struct alignas(64) SegmentPacket {
   float ox[16], oy[16], oz[16];
   float dx[16], dy[16], dz[16];
   uint32_t active = 0;
+
+  // Segment k, without making it active.
+  void set(int k, Vec3 from, Vec3 to) {
+    ox[k] = static_cast<float>(from.x);
+    oy[k] = static_cast<float>(from.y);
+    oz[k] = static_cast<float>(from.z);
+    dx[k] = static_cast<float>(to.x - from.x);
+    dy[k] = static_cast<float>(to.y - from.y);
+    dz[k] = static_cast<float>(to.z - from.z);
+  }
 };
 
 struct Hit {
@@ -37,7 +47,8 @@ class VisibilityEngine {
   // Bit i set: something lies strictly between the ends of segment i (0 < t < 1). Any thread.
   virtual uint32_t blocked(const SegmentPacket& packet) const = 0;
 
-  // The nearest hit of a ray with t > t_min; of equally near ones that of the lowest patch. Origin
+  // The nearest hit of a ray with t > t_min; of equally near ones that of a patch met from its front,
+  // of the lowest such patch. Origin
   // and direction are in scene coordinates (not relative to the center); the direction need not have
   // length 1. Any thread.
   virtual Hit nearest(Vec3 origin, Vec3 direction, double t_min) const = 0;

@@ -2,9 +2,10 @@
  * advice, whatever the number of threads, and the solver goes on as if it had not been asked. */
 #include "api.h"
 
-static hrad_solver* cornell(int64_t limit, int64_t threads) {
+static hrad_solver* cornell(const char* linking, int64_t limit, int64_t threads) {
   hrad_solver* solver = new_solver();
-  assert_ok(hrad_set_double(solver, "accuracy", 0.2));
+  assert_ok(hrad_set_text(solver, "linking", linking));
+  assert_ok(hrad_set_double(solver, "accuracy", strcmp(linking, "pairs") == 0 ? 0.2 : 0.03));
   assert_ok(hrad_set_int(solver, "threads", threads));
   assert_ok(hrad_make_scene(solver, "cornell"));
   assert_ok(hrad_set_int(solver, "max_memory", limit));
@@ -28,12 +29,11 @@ static void scene_over_the_limit(void** state) {
   hrad_destroy(&solver);
 }
 
-static void solve_over_the_limit(void** state) {
-  hrad_solver* free_solver = cornell(0, 1);
+static void check_over_the_limit(const char* linking) {
+  hrad_solver* free_solver = cornell(linking, 0, 1);
   hrad_stats stats;
   uint64_t wanted, hash;
   int64_t limit, leaves;
-  (void)state;
   assert_ok(hrad_solve(free_solver));
   assert_ok(hrad_state_hash(free_solver, &wanted));
   stats = stats_of(free_solver);
@@ -41,7 +41,7 @@ static void solve_over_the_limit(void** state) {
   /* Too little for the rays, for the first links, for the refined ones. */
   for (limit = 1000; limit < stats.link_bytes + stats.node_bytes; limit *= 4)
     for (int64_t threads = 1; threads <= 3; threads += 2) {
-      hrad_solver* solver = cornell(limit, threads);
+      hrad_solver* solver = cornell(linking, limit, threads);
       assert_fails(hrad_solve(solver), HRAD_ERROR_MEMORY, "raise it, or use a larger accuracy");
       assert_non_null(strstr(hrad_error_message(), "MiB more and"));
       assert_true(patch_count(solver) > 0);
@@ -55,9 +55,15 @@ static void solve_over_the_limit(void** state) {
   hrad_destroy(&free_solver);
 }
 
+static void solve_over_the_limit(void** state) {
+  (void)state;
+  check_over_the_limit("pairs");
+  check_over_the_limit("rows");
+}
+
 /* A limit that is kept changes nothing; it may be lowered between two solves. */
 static void limit_may_change(void** state) {
-  hrad_solver *solver = cornell(0, 1), *limited = cornell(INT64_C(1) << 30, 1);
+  hrad_solver *solver = cornell("pairs", 0, 1), *limited = cornell("pairs", INT64_C(1) << 30, 1);
   uint64_t wanted, hash;
   (void)state;
   assert_ok(hrad_solve(solver));

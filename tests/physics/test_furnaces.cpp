@@ -53,27 +53,21 @@ struct Deviation {
   double rms() const { return area > 0 ? std::sqrt(squares / area) : 0; }
 };
 
-// What a furnace may deviate by; where everything emits, `accuracy` promises nothing by itself.
+// What a furnace may deviate by, patch by patch and at points.
 struct Tolerance {
-  double accuracy;  // that is asked for
   double rms, largest;
   double points_rms;
 };
-// Rooms without a contact or a narrow gap, patch by patch.
-constexpr Tolerance kPlain = {0.005, 0.003, 0.005, 0.032};
-constexpr Tolerance kSmall = {0.01, 0.005, 0.03, 0.03};
+// Rooms without a contact or a narrow gap.
+constexpr Tolerance kPlain = {0.0001, 0.0005, 0.0001};
+constexpr Tolerance kSmall = {0.001, 0.02, 0.001};
 // Thousands of patches, compartments and slots a few centimetres wide between closed solids.
-constexpr Tolerance kLarge = {0.025, 0.005, 0.2, 0.03};
+constexpr Tolerance kLarge = {0.0015, 0.05, 0.0015};
 
 double mean_radiosity(double sealed) { return kExposed + (kEmission - kExposed) * sealed; }
 
-// The same with hundreds of things in slots and compartments of a few centimetres, where the errors
-// of neighbours add up: this is what holds today.
-constexpr Tolerance kCrowded = {0.025, 0.0115, 0.2, 0.03};
-
 // Checks patch means and points; false when the scene isn't closed, so that nothing is to be said.
 bool check_furnace(ApiSolver& solver, const char* name, const Tolerance& tolerance) {
-  solver.set("accuracy", tolerance.accuracy);
   solver.set_everywhere(kEmission, kReflectance);
   std::vector<Surface> surfaces = solver.surfaces();
   for (Surface& s : surfaces) s.reflectance = s.emission = gray(0);  // first rays alone
@@ -183,7 +177,6 @@ void built_in_scenes_as_furnaces() {
     solver.make(name.c_str());
     const bool plain = name == "furnace" || name == "furnace-sphere" || name == "box-in-box";
     const Tolerance& tolerance = plain                  ? kPlain
-                                 : name == "classroom"  ? kCrowded
                                  : solver.size() > 2000 ? kLarge
                                                         : kSmall;
     try {
@@ -203,7 +196,6 @@ void balance_of_built_in_scenes() {
   for (const std::string& name : scene_names()) {
     ApiSolver solver;
     solver.make(name.c_str());
-    solver.set("accuracy", solver.size() > 2000 ? 0.03 : 0.05);
     CHECK(solver.solve() >= 0);
     double emitted = 0;
     for (const Surface& s : solver.surfaces()) emitted += s.sides() * s.area * sum(s.emission);

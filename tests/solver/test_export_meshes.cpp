@@ -189,6 +189,7 @@ std::string json_of_triangle(Vec3 at, const char* unit, int n_bands) {
   Solver solver;
   solver.set_int("bands", n_bands);
   solver.set_text("unit", unit);
+  solver.set_text("linking", "pairs");  // one leaf
   const std::vector<double> values(static_cast<size_t>(n_bands), 0.5);
   solver.add_material({"lamp", values, values, false, false});
   const double xyz[] = {at.x, at.y, at.z, at.x + 1, at.y, at.z, at.x, at.y + 1, at.z};

@@ -18,7 +18,10 @@ using namespace hrad_test;
 // Surfaces whose leaves have the means of a field over space, which for linear ones are its values
 // at the centroids.
 struct Field {
-  explicit Field(Scene s, int bands = 1) : scene(std::move(s)), forest(scene), bands(bands) {}
+  explicit Field(Scene s, int bands = 1)
+      : scene(std::move(s)), state(scene), forest(state.forest), bands(bands) {
+    state.bands = bands;
+  }
 
   void split_unevenly(int level, uint64_t seed) {
     split_where(forest, level, [&](const Node& node) {
@@ -29,12 +32,12 @@ struct Field {
   template <class F>
   void fill(F&& f) {
     leaves = forest.leaves();
-    irradiance.assign(forest.nodes.size() * bands, 0.0f);
+    state.irradiance.assign(forest.nodes.size() * bands, 0.0f);
     for (NodeId leaf : leaves)
       for (int b = 0; b < bands; ++b)
-        irradiance[static_cast<size_t>(leaf) * bands + b] =
+        state.irradiance[static_cast<size_t>(leaf) * bands + b] =
             static_cast<float>(f(forest.triangle(forest.nodes[leaf]).centroid(), b));
-    linear = std::make_unique<Reconstruction>(forest, bands, leaves, irradiance);
+    linear = std::make_unique<Reconstruction>(state, leaves);
   }
 
   // The value of surface `root` at its (u,v).
@@ -45,10 +48,10 @@ struct Field {
   }
 
   Scene scene;
-  Forest forest;
+  State state;
+  Forest& forest;
   int bands;
   std::vector<NodeId> leaves;
-  std::vector<float> irradiance;
   std::unique_ptr<Reconstruction> linear;
 };
 
@@ -126,7 +129,7 @@ void linear_fields_are_met_closely_by_an_uneven_mesh() {
       CHECK_NEAR(found, wanted, 2.5 / 8);
       CHECK(found >= 1 && found <= 3.5);
       square_sum += (found - wanted) * (found - wanted);
-      const float mean = field.irradiance[field.forest.leaf_at(root, u, v)];
+      const float mean = field.state.irradiance[field.forest.leaf_at(root, u, v)];
       steps += (mean - wanted) * (mean - wanted);
     }
     // Better than the means alone.
@@ -230,8 +233,8 @@ void sides_and_strangers_do_not_mix() {
     const Surface& surface = field.forest.surfaces[node.surface];
     return surface.patch >= 2 ? 9.0f : surface.side ? 4.0f : 1.0f;
   };
-  for (const Node& node : field.forest.nodes) field.irradiance.push_back(value_of(node));
-  field.linear = std::make_unique<Reconstruction>(field.forest, 1, field.leaves, field.irradiance);
+  for (const Node& node : field.forest.nodes) field.state.irradiance.push_back(value_of(node));
+  field.linear = std::make_unique<Reconstruction>(field.state, field.leaves);
   for (NodeId root = 0; root < field.forest.surface_count(); ++root)
     for (double u : {0.0, 0.1, 0.5})
       for (double v : {0.0, 0.2, 0.5})

@@ -1,0 +1,174 @@
+// Shadow rays. Floor 6 (links).
+#include "links/direct_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/hash.h"
+#include "base/low_discrepancy.h"
+#include "links/form_factor.h"
+#include "links/kernel_parts.h"
+#include "links/pair_samples.h"
+
+namespace hrad {
+namespace {
+
+// An emitter nearer than this many of its radii is sampled by what is seen of its parts.
+constexpr double near_radii = 2;
+// Farther than so many, it is a point: the form factor errs by about the inverse square of this.
+constexpr double point_radii = 30;
+// Variance of what one ray says: at the most, and where some thirty pilot rays met nothing.
+constexpr double variance_at_most = 0.25, variance_if_hidden = 1.0 / 32;
+
+// cos cos / distance^2, 0 behind a horizon.
+double kernel(Vec3 x, Vec3 normal, Vec3 y, Vec3 normal_y) {
+  const Vec3 d = y - x;
+  const double at_x = dot(d, normal), at_y = -dot(d, normal_y), distance2 = dot(d, d);
+  return at_x > 0 && at_y > 0 ? at_x * at_y / (distance2 * distance2) : 0;
+}
+
+}  // namespace
+
+// A packet under way, with the rays of one emitter or of several.
+struct DirectLight::Batch {
+  struct Part {
+    const Emitter* emitter;
+    int first, rays;
+  };
+  SegmentPacket packet;
+  double weight[16];
+  Part parts[16];
+  int part_count = 0, used = 0;
+  int64_t rays = 0;
+};
+
+DirectLight::DirectLight(const Forest& forest, const VisibilityEngine& engine,
+                         const Emitters& emitters, const LightGrid& grid, double noise)
+    : forest_(forest), engine_(engine), emitters_(emitters), grid_(grid), noise_(noise) {
+  for (const Emitter& e : emitters.all()) {
+    first_element_.push_back(static_cast<int32_t>(elements_.size()));
+    for (NodeId root : e.surfaces) elements_.push_back(element_of(forest, forest.nodes[root]));
+  }
+}
+
+int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
+                            std::vector<Link>& links) const {
+  Batch batch;
+  int64_t rays = 0;
+  for (const LightGrid::Candidate& candidate : grid_.at(point)) {
+    const Emitter& e = emitters_.all()[candidate.emitter];
+    const int wanted = rays_wanted(e, candidate.hidden, point.place, point.normal);
+    if (wanted == 0) continue;
+    const uint64_t own_key = mix(key, static_cast<uint64_t>(e.surfaces.front()));
+    if (length(e.center - point.place) > near_radii * e.radius) {
+      if (batch.used + wanted > 16) finish(point, batch, links);
+      add(e, wanted, own_key, point, batch);
+    } else {
+      for (NodeId root : e.surfaces)
+        rays += sample_near(root, point, mix(own_key, static_cast<uint64_t>(root)), links);
+    }
+  }
+  finish(point, batch, links);
+  return rays + batch.rays;
+}
+
+// 1, 4 or 16, none where the emitter isn't bright.
+int DirectLight::rays_wanted(const Emitter& e, bool hidden, Vec3 x, Vec3 normal) const {
+  const double factor = Emitters::factor_bound(e, x, normal);
+  if (!emitters_.is_bright(e, factor)) return 0;
+  // Partly below the horizon, few points may miss all of it.
+  if (dot(e.center - x, normal) < e.radius) return 16;
+  const double light = e.brightness * factor;
+  const double variance = hidden ? variance_if_hidden : variance_at_most;
+  const double wanted = light * light * variance / (noise_ * noise_);
+  return wanted > 4 ? 16 : wanted > 1 ? 4 : 1;
+}
+
+void DirectLight::add(const Emitter& e, int rays, uint64_t key, const OrientedPoint& point,
+                      Batch& batch) const {
+  const Vec3 from = point.place + point.normal * engine_.offset() - engine_.center();
+  const Vec3 to_packet = e.normal * engine_.offset() - engine_.center();
+  batch.parts[batch.part_count++] = {&e, batch.used, rays};
+  // All sixteen points, or some of them that are spread evenly, other ones for every receiver.
+  const size_t turn = rays == 16 ? 0 : key % 16;
+  for (int k = 0; k < rays; ++k, ++batch.used) {
+    const Vec3 y = e.point[(turn + static_cast<size_t>(k * (16 / rays))) % 16];
+    batch.weight[batch.used] = kernel(point.place, point.normal, y, e.normal);
+    batch.packet.set(batch.used, from, y + to_packet);
+    if (batch.weight[batch.used] > 0) batch.packet.active |= 1u << batch.used;
+  }
+}
+
+void DirectLight::finish(const OrientedPoint& point, Batch& batch,
+                         std::vector<Link>& links) const {
+  if (batch.used == 0) return;
+  for (int k = batch.used; k < 16; ++k) batch.packet.set(k, Vec3{0, 0, 0}, Vec3{1, 0, 0});
+  batch.rays += __builtin_popcount(batch.packet.active);
+  const uint32_t seen = batch.packet.active & ~engine_.blocked(batch.packet);
+  for (int p = 0; p < batch.part_count; ++p) {
+    const Batch::Part& part = batch.parts[p];
+    double all = 0, visible = 0;
+    for (int k = part.first; k < part.first + part.rays; ++k) {
+      all += batch.weight[k];
+      if (seen >> k & 1) visible += batch.weight[k];
+    }
+    // A strip above the horizon that all points miss is taken for visible.
+    if (all > 0 && !(visible > 0)) continue;
+    const double share = all > 0 ? visible / all : 1;
+    const bool far = length(part.emitter->center - point.place) > point_radii * part.emitter->radius;
+    for (NodeId root : part.emitter->surfaces) {
+      const Triangle triangle = forest_.root_triangle(root);
+      const double factor =
+          far ? kernel(point.place, point.normal, triangle.centroid(), part.emitter->normal) *
+                    forest_.surfaces[root].area / pi
+              : point_to_triangle(point.place, point.normal, triangle);
+      if (factor > 0) links.push_back({root, static_cast<float>(factor * share)});
+    }
+  }
+  batch.packet.active = 0;
+  batch.part_count = batch.used = 0;
+}
+
+int64_t DirectLight::sample_near(NodeId root, const OrientedPoint& point, uint64_t key,
+                                 std::vector<Link>& links) const {
+  const Vec3 x = point.place, normal = point.normal;
+  const Triangle corners = forest_.root_triangle(root);
+  const double factor = point_to_triangle(x, normal, corners);
+  if (!(factor > 0)) return 0;
+  const int32_t number = emitters_.of_root(root);
+  const Emitter& e = emitters_.all()[number];
+  const Element& element =
+      elements_[first_element_[number] +
+                (std::find(e.surfaces.begin(), e.surfaces.end(), root) - e.surfaces.begin())];
+  KernelParts parts;
+  parts.divide(x, normal, element);
+  SegmentPacket packet;
+  const Vec3 from = x + normal * engine_.offset() - engine_.center();
+  const Vec3 to_packet = element.normal * engine_.offset() - engine_.center();
+  double weight[16], sum = 0;
+  for (int k = 0; k < 16; ++k) {
+    double p[4];
+    low_discrepancy_point(key, static_cast<uint32_t>(k), p);
+    const KernelPart& part = parts.at(p[0]);
+    float u, v;
+    point_in_place(part.place, p[1], p[2], &u, &v);
+    const Vec3 y = corners.at(u, v);
+    // Drawn in proportion to the part's weight over its area.
+    weight[k] = kernel(x, normal, y, element.normal) * part.area / part.weight;
+    sum += weight[k];
+    packet.set(k, from, y + to_packet);
+    if (weight[k] > 0) packet.active |= 1u << k;
+  }
+  double seen = sum > 0 ? 0 : 1;
+  if (sum > 0) {
+    const uint32_t blocked = engine_.blocked(packet);
+    for (int k = 0; k < 16; ++k)
+      if (!(blocked >> k & 1)) seen += weight[k];
+    seen /= sum;
+  }
+  if (seen > 0) links.push_back({root, static_cast<float>(factor * seen)});
+  return __builtin_popcount(packet.active);
+}
+
+}  // namespace hrad

@@ -1,0 +1,47 @@
+// Light straight from bright emitters to a point: exact form factors (Lambert) times the visible
+// fraction by sixteen shadow rays spread over the emitter, or over what is seen of its parts where it
+// is near. Floor 6 (links).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "links/element.h"
+#include "links/light_grid.h"
+#include "links/link.h"
+#include "visibility/visibility.h"
+
+namespace hrad {
+
+class DirectLight {
+ public:
+  // noise: what the visible fraction of an emitter may be off by, times the light that it would
+  // bring, in units of the mean irradiance: weak ones take fewer than sixteen rays. All must outlive
+  // this.
+  DirectLight(const Forest& forest, const VisibilityEngine& engine, const Emitters& emitters,
+              const LightGrid& grid, double noise);
+
+  // Appends one link per visible surface of every emitter that is bright there,
+  // weight = form factor times visible fraction. The point lies on a surface, not lifted. Any thread.
+  // Returns the number of rays.
+  int64_t sample(const OrientedPoint& point, uint64_t key, std::vector<Link>& links) const;
+
+ private:
+  struct Batch;
+  int rays_wanted(const Emitter& emitter, bool hidden, Vec3 x, Vec3 normal) const;
+  void add(const Emitter& emitter, int rays, uint64_t key, const OrientedPoint& point,
+           Batch& batch) const;
+  void finish(const OrientedPoint& point, Batch& batch, std::vector<Link>& links) const;
+  int64_t sample_near(NodeId root, const OrientedPoint& point, uint64_t key,
+                      std::vector<Link>& links) const;
+
+  const Forest& forest_;
+  const VisibilityEngine& engine_;
+  const Emitters& emitters_;
+  const LightGrid& grid_;
+  const double noise_;
+  std::vector<Element> elements_;       // of all emitting roots
+  std::vector<int32_t> first_element_;  // per emitter
+};
+
+}  // namespace hrad

@@ -1,0 +1,308 @@
+// Dividing elements level by level of all surfaces together, so that each step is one even batch of
+// work. Floor 7 (stages).
+#include "stages/row_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "links/element.h"
+
+namespace hrad {
+namespace {
+
+// An element whose middles are known already is divided for this share of the tolerance.
+constexpr double worth_keeping = 0.25;
+// Borders of contacts are followed down to this share of a cell.
+constexpr double least_of_a_contact = 1.0 / 16;
+
+// Points half way from the corners to the middle, in the order of these.
+void half_way_points(const Node& node, LatticePoint point[3]) {
+  LatticePoint corner[3];
+  lattice_corners(node, corner);
+  const int32_t i = corner[0].i + corner[1].i + corner[2].i;
+  const int32_t j = corner[0].j + corner[1].j + corner[2].j;
+  for (int c = 0; c < 3; ++c) point[c] = {(3 * corner[c].i + i) / 6, (3 * corner[c].j + j) / 6};
+}
+
+LatticePoint middle(LatticePoint a, LatticePoint b) { return {(a.i + b.i) / 2, (a.j + b.j) / 2}; }
+
+}  // namespace
+
+RowMesh::RowMesh(State& state, StageTools tools, const RowSettings& settings,
+                 const DirectLight& light, LightGrid& grid, const Brightness& brightness,
+                 StageMemory& memory)
+    : state_(state),
+      forest_(state.forest),
+      tools_(std::move(tools)),
+      settings_(settings),
+      sampler_(state.forest, tools_.engine, tools_.exposure, tools_.oracle.seed,
+               tools_.oracle.near_ratio),
+      corners_(state, tools_, light, grid, brightness, settings.seed),
+      memory_(memory) {}
+
+bool RowMesh::build() {
+  make_cells();
+  std::vector<NodeId> open;
+  for (NodeId id : state_.cells)
+    if (forest_.nodes[id].exposed > 0) open.push_back(id);
+  if (!keep_small_patches(open)) return false;
+  for (NodeId id : open) want_corners(id);
+  if (!sample_corners() || !refine(std::move(open))) return false;
+  name_corners();
+  return true;
+}
+
+// Children of a leaf. Their exposure is that of the parent where it is whole.
+NodeId RowMesh::add_children(NodeId parent) {
+  const NodeId first = static_cast<NodeId>(forest_.nodes.size());
+  for (int k = 0; k < 4; ++k) {
+    Node child = child_place(forest_.nodes[parent], k);
+    child.parent = parent;
+    child.first_child = -1;
+    forest_.nodes.push_back(child);
+  }
+  forest_.nodes[parent].first_child = first;
+  if (parent < named_) state_.direct.of_leaf[parent] = {-1, -1, -1};
+  return first;
+}
+
+bool RowMesh::sample_corners() {
+  if (!corners_.sample()) return false;
+  memory_.settle();
+  return true;
+}
+
+void RowMesh::measure_exposure(NodeId from) {
+  tools_.team.for_each(static_cast<int64_t>(forest_.nodes.size()) - from, [&](int64_t k, int) {
+    Node& node = forest_.nodes[from + k];
+    if (node.exposed > 0 && node.exposed < 1) node.exposed = sampler_.exposed_share(node);
+  });
+}
+
+void RowMesh::make_cells() {
+  NodeId from = 0;
+  while (from < static_cast<NodeId>(forest_.nodes.size())) {
+    const NodeId end = static_cast<NodeId>(forest_.nodes.size());
+    for (NodeId id = from; id < end; ++id) {
+      const Node& node = forest_.nodes[id];
+      if (forest_.area(node) > settings_.cell_area && node.level < max_level)
+        add_children(id);
+      else
+        state_.cells.push_back(id);
+    }
+    measure_exposure(end);
+    from = end;
+  }
+}
+
+// Patches no larger than a cell: three points half way to the middle have the mean of every
+// quadratic field, while corners lie in creases and contacts. Where these agree the patch is left as
+// it is, and taken out of `open`.
+bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
+  for (NodeId id : open)
+    if (forest_.nodes[id].level == 0) want_half_way(id);
+  if (!sample_corners()) return false;
+  std::vector<NodeId> rest;
+  for (NodeId id : open) {
+    if (forest_.nodes[id].level == 0) {
+      LatticePoint point[3];
+      half_way_points(forest_.nodes[id], point);
+      double low = 1e300, high = -1;
+      for (const LatticePoint& p : point) {
+        low = std::min(low, corners_.value(id, p));
+        high = std::max(high, corners_.value(id, p));
+      }
+      if (low >= 0 && weighed((high - low) / 2, forest_.area(forest_.nodes[id])) <= 1) {
+        state_.direct.half_way.resize(forest_.nodes.size(), 0);
+        state_.direct.half_way[id] = 1;
+        continue;
+      }
+    }
+    rest.push_back(id);
+  }
+  open.swap(rest);
+  return true;
+}
+
+void RowMesh::want_half_way(NodeId id) {
+  LatticePoint point[3];
+  half_way_points(forest_.nodes[id], point);
+  for (const LatticePoint& p : point) corners_.want(forest_.nodes[id].surface, p);
+}
+
+void RowMesh::want_corners(NodeId id) {
+  LatticePoint corner[3];
+  lattice_corners(forest_.nodes[id], corner);
+  for (const LatticePoint& c : corner) corners_.want(forest_.nodes[id].surface, c);
+}
+
+void RowMesh::want_middles(NodeId id) {
+  LatticePoint corner[3];
+  lattice_corners(forest_.nodes[id], corner);
+  for (int c = 0; c < 3; ++c)
+    corners_.want(forest_.nodes[id].surface, middle(corner[c], corner[(c + 1) % 3]));
+}
+
+// Divides the open elements, whose corners are known, until direct light is linear between them.
+bool RowMesh::refine(std::vector<NodeId> open) {
+  while (!open.empty()) {
+    std::vector<NodeId> asked;
+    for (NodeId id : open)
+      if (may_divide(id)) asked.push_back(id);
+    for (NodeId id : asked) want_middles(id);
+    if (!sample_corners()) return false;
+    const NodeId end = static_cast<NodeId>(forest_.nodes.size());
+    std::vector<NodeId> families;
+    for (NodeId id : asked) {
+      const double error = deviation(id);
+      if (error <= worth_keeping) continue;
+      const NodeId first = add_children(id);
+      if (error > 1) families.push_back(first);
+    }
+    measure_exposure(end);
+    open.clear();
+    for (NodeId first : families)
+      for (NodeId child = first; child < first + 4; ++child)
+        if (forest_.nodes[child].exposed > 0) open.push_back(child);
+  }
+  return true;
+}
+
+bool RowMesh::may_divide(NodeId id) const {
+  const Node& node = forest_.nodes[id];
+  const double area = forest_.area(node);
+  if (node.level >= max_level || area < 4 * settings_.min_area) return false;
+  if (node.exposed < 1) return area > least_of_a_contact * settings_.cell_area;
+  // Where little arrives, or on little area, nothing can deviate by much.
+  LatticePoint corner[3];
+  lattice_corners(node, corner);
+  double largest = 1;
+  for (const LatticePoint& c : corner)
+    largest = std::max(largest, corners_.value(node.surface, c));
+  return weighed(largest, area) > 1;
+}
+
+// Error between corners over what is tolerated: equal shares of the sum of squares over the area.
+double RowMesh::weighed(double deviation, double area) const {
+  return deviation * std::sqrt(std::min(1.0, area / settings_.cell_area)) / settings_.tolerance;
+}
+
+// Of the middles of the edges from the means of their ends.
+double RowMesh::deviation(NodeId id) const {
+  const Node& node = forest_.nodes[id];
+  LatticePoint corner[3];
+  lattice_corners(node, corner);
+  double largest = 0;
+  for (int c = 0; c < 3; ++c) {
+    const LatticePoint from = corner[c], to = corner[(c + 1) % 3];
+    const double a = corners_.value(node.surface, from), b = corners_.value(node.surface, to);
+    const double m = corners_.value(node.surface, middle(from, to));
+    if (a < 0 || b < 0 || m < 0) return 2;  // the border of a contact
+    largest = std::max(largest, std::fabs(m - (a + b) / 2));
+  }
+  return weighed(largest, forest_.area(node));
+}
+
+// Irradiance varies over distances like those to what it comes from or what hides that (Ward,
+// Rubinstein, Clear 1988), as far as this is brighter or darker than the rest; in units of the
+// scene's mean irradiance.
+double RowMesh::cell_variation(NodeId cell, const Brightness& brightness) const {
+  const Node& node = forest_.nodes[cell];
+  const Vec3 center = forest_.triangle(node).centroid();
+  const double leg = std::sqrt(2 * forest_.area(node));
+  double all = 0, seen = 0;
+  for (const Link& link : state_.links[cell].links()) {
+    all += link.weight;
+    seen += static_cast<double>(link.weight) * brightness.of_node[link.source];
+  }
+  if (!(all > 0)) return 0;
+  const double mean = seen / all;
+  double sum = 0;
+  for (const Link& link : state_.links[cell].links()) {
+    const double distance =
+        length(forest_.triangle(forest_.nodes[link.source]).centroid() - center);
+    sum += link.weight * std::fabs(brightness.of_node[link.source] - mean) * leg /
+           std::max(distance, leg / 4);
+  }
+  return sum;
+}
+
+bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells) {
+  new_cells.clear();
+  std::vector<uint8_t> divide(state_.cells.size());
+  tools_.team.for_each(static_cast<int64_t>(divide.size()), [&](int64_t k, int) {
+    const NodeId cell = state_.cells[k];
+    const double area = forest_.area(forest_.nodes[cell]);
+    if (area < 4 * settings_.least_cell_area || forest_.nodes[cell].level >= max_level) return;
+    divide[k] = cell_variation(cell, brightness) * std::sqrt(area / settings_.cell_area) >
+                settings_.cell_variation;
+  });
+  std::vector<NodeId> leaves, cells;
+  for (size_t k = 0; k < divide.size(); ++k) {
+    const NodeId cell = state_.cells[k];
+    if (!divide[k])
+      cells.push_back(cell);
+    else if (forest_.is_leaf(cell))
+      leaves.push_back(cell);
+  }
+  const NodeId end = static_cast<NodeId>(forest_.nodes.size());
+  for (NodeId id : leaves) {
+    const NodeId first = add_children(id);
+    state_.direct.half_way.resize(forest_.nodes.size(), 0);
+    if (state_.direct.half_way[id]) {
+      for (NodeId child = first; child < first + 4; ++child) {
+        state_.direct.half_way[child] = 1;
+        want_half_way(child);
+      }
+    } else {
+      want_middles(id);
+    }
+  }
+  if (!sample_corners()) return false;
+  measure_exposure(end);
+  for (size_t k = 0; k < divide.size(); ++k) {
+    if (!divide[k]) continue;
+    const NodeId cell = state_.cells[k];
+    state_.links[cell].assign({});
+    for (int child = 0; child < 4; ++child)
+      new_cells.push_back(forest_.nodes[cell].first_child + child);
+  }
+  cells.insert(cells.end(), new_cells.begin(), new_cells.end());
+  state_.cells.swap(cells);
+  name_corners();
+  return true;
+}
+
+void RowMesh::name_corners() {
+  CornerLight& direct = state_.direct;
+  const NodeId end = static_cast<NodeId>(forest_.nodes.size());
+  direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
+  direct.half_way.resize(forest_.nodes.size(), 0);
+  for (NodeId id = named_; id < end; ++id)
+    if (forest_.is_leaf(id) && forest_.nodes[id].exposed > 0) name_corners_of(id);
+  named_ = end;
+  state_.links.resize(forest_.nodes.size());
+  memory_.settle();
+}
+
+// A leaf that is exposed only between sealed corners gets light from an exposed point.
+void RowMesh::name_corners_of(NodeId leaf) {
+  CornerLight& direct = state_.direct;
+  const Node& node = forest_.nodes[leaf];
+  LatticePoint corner[3];
+  lattice_corners(node, corner);
+  if (direct.half_way[leaf]) half_way_points(node, corner);
+  bool any = false;
+  for (int c = 0; c < 3; ++c) {
+    const int32_t number = corners_.number(node.surface, corner[c]);
+    if (corners_.value(number) < 0) continue;
+    direct.of_leaf[leaf][c] = number;
+    any = true;
+  }
+  if (any) return;
+  const int32_t own = corners_.add_within(leaf);
+  direct.of_leaf[leaf] = {own, own, own};
+}
+
+}  // namespace hrad

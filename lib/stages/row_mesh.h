@@ -1,0 +1,55 @@
+// The mesh of linking by rows: cells, the elements that own rows of rays, and below them smaller
+// elements where light straight from bright emitters varies (design: `rows`). Floor 7 (stages).
+#pragma once
+
+#include <vector>
+
+#include "links/link_sampler.h"
+#include "stages/corner_light.h"
+#include "stages/rows.h"
+#include "stages/state_memory.h"
+
+namespace hrad {
+
+class RowMesh {
+ public:
+  // State, light, grid and memory must outlive this.
+  RowMesh(State& state, StageTools tools, const RowSettings& settings,
+          const DirectLight& light, LightGrid& grid, const Brightness& brightness,
+          StageMemory& memory);
+
+  // Cells of even size, and direct light on a mesh as fine as it needs. False: stopped.
+  bool build();
+
+  // Divides the cells in which reflected light varies too much, by the present light on their rows.
+  // new_cells: those without a row. False: stopped.
+  bool divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells);
+
+ private:
+  NodeId add_children(NodeId parent);
+  void measure_exposure(NodeId from);
+  bool sample_corners();
+  void make_cells();
+  bool keep_small_patches(std::vector<NodeId>& open);
+  bool refine(std::vector<NodeId> open);
+  void want_half_way(NodeId id);
+  void want_corners(NodeId id);
+  void want_middles(NodeId id);
+  bool may_divide(NodeId id) const;
+  double deviation(NodeId id) const;
+  double weighed(double deviation, double area) const;
+  double cell_variation(NodeId cell, const Brightness& brightness) const;
+  void name_corners();
+  void name_corners_of(NodeId leaf);
+
+  State& state_;
+  Forest& forest_;
+  const StageTools tools_;
+  const RowSettings settings_;
+  const LinkSampler sampler_;
+  CornerSampler corners_;
+  StageMemory& memory_;
+  NodeId named_ = 0;  // nodes before this one have their corners named
+};
+
+}  // namespace hrad

@@ -1,0 +1,159 @@
+// Cosine-distributed rays, spread evenly over each element and its hemisphere. Floor 7 (stages).
+#include "stages/row_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/frame.h"
+#include "base/low_discrepancy.h"
+#include "links/element.h"
+#include "links/pair_samples.h"
+
+namespace hrad {
+namespace {
+
+constexpr int64_t rows_of_a_task = 32;
+
+// Share of an emitter's light that corners bring to a point of a leaf: what is left comes by rays.
+double direct_share(const State& state, const Emitters& emitters, int32_t emitter, NodeId leaf,
+                    double u, double v) {
+  const auto& corner = state.direct.of_leaf[leaf];
+  const Node& node = state.forest.nodes[leaf];
+  const double scale = static_cast<double>(1 << node.level);
+  double x = u * scale - node.i, y = v * scale - node.j;
+  if (node.inverted) {
+    x = 1 - x;
+    y = 1 - y;
+  }
+  const double weight[3] = {1 - x - y, x, y};
+  double all = 0, direct = 0;
+  for (int c = 0; c < 3; ++c) {
+    if (corner[c] < 0) continue;
+    all += weight[c];
+    if (emitters.bright(emitters.all()[emitter], state.direct.place[corner[c]],
+                        state.forest.surfaces[node.surface].normal))
+      direct += weight[c];
+  }
+  return all > 0 ? direct / all : 0;
+}
+
+class RowTracer {
+ public:
+  RowTracer(const State& state, const StageTools& tools, const RowSettings& settings,
+            const Emitters& emitters)
+      : state_(state), tools_(tools), settings_(settings), emitters_(emitters) {}
+
+  // The links of one element, sorted by source.
+  void trace(NodeId id, std::vector<Link>& links) {
+    const Forest& forest = state_.forest;
+    const Node& node = forest.nodes[id];
+    const Surface& surface = forest.surfaces[node.surface];
+    const Triangle corners = forest.triangle(node);
+    const Frame frame(surface.normal);
+    const uint64_t key = mix(key_of(forest, node), settings_.seed, 0x726f77u);
+    const int wanted = rays_wanted(forest.area(node));
+    // Points on a sealed part see nothing: the row is that of the exposed part.
+    const int most = node.exposed < 1 ? 64 * wanted : wanted;
+    hits_.clear();
+    int counted = 0;
+    for (int k = 0; k < most && counted < wanted; ++k) {
+      double p[4];
+      low_discrepancy_point(key, static_cast<uint32_t>(k), p);
+      const double root = std::sqrt(p[0]);
+      const Vec3 on = corners.at(root * (1 - p[1]), root * p[1]);
+      if (node.exposed < 1 && tools_.exposure.sealed(surface.patch, surface.side, on)) continue;
+      ++counted;
+      ++rays;
+      const Hit hit = tools_.engine.nearest(on + surface.normal * tools_.engine.offset(),
+                                            frame.cosine_direction(p[2], p[3]), 0);
+      if (hit.patch < 0) continue;
+      const NodeId source = forest.root(hit.patch, hit.back ? 1 : 0);
+      if (source < 0) continue;
+      double worth = 1;
+      const int32_t emitter = emitters_.of_root(source);
+      if (emitter >= 0) {
+        double u, v;
+        root_coordinates(node, root * (1 - p[1]), root * p[1], &u, &v);
+        worth -= direct_share(state_, emitters_, emitter, forest.leaf_at(node.surface, u, v), u, v);
+        if (!(worth > 0)) continue;
+      }
+      const NodeId leaf = hit.back ? forest.leaf_at(source, hit.v, hit.u)
+                                   : forest.leaf_at(source, hit.u, hit.v);
+      if (forest.nodes[leaf].exposed < 1 &&
+          tools_.exposure.under_a_back(
+              hit.patch, hit.back, forest.scene->triangle(hit.patch).at(hit.u, hit.v)))
+        continue;
+      hits_.push_back({leaf, static_cast<float>(worth)});
+    }
+    std::sort(hits_.begin(), hits_.end(), [](const Link& a, const Link& b) {
+      return a.source != b.source ? a.source < b.source : a.weight < b.weight;
+    });
+    for (size_t k = 0; k < hits_.size();) {
+      double sum = 0;
+      const NodeId source = hits_[k].source;
+      for (; k < hits_.size() && hits_[k].source == source; ++k) sum += hits_[k].weight;
+      links.push_back({source, static_cast<float>(sum / counted)});
+    }
+  }
+
+  int64_t rays = 0;
+
+ private:
+  int rays_wanted(double area) const {
+    const double wanted =
+        settings_.rays_of_cell * std::sqrt(std::min(1.0, area / settings_.cell_area));
+    return std::max(settings_.least_rays, static_cast<int>(std::ceil(wanted)));
+  }
+
+  // From (x,y) within an element to (u,v) of its root.
+  static void root_coordinates(const Node& node, double x, double y, double* u, double* v) {
+    if (node.inverted) {
+      x = 1 - x;
+      y = 1 - y;
+    }
+    const double scale = static_cast<double>(1 << node.level);
+    *u = (node.i + x) / scale;
+    *v = (node.j + y) / scale;
+  }
+
+  const State& state_;
+  const StageTools& tools_;
+  const RowSettings& settings_;
+  const Emitters& emitters_;
+  std::vector<Link> hits_;
+};
+
+}  // namespace
+
+bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
+                const Emitters& emitters, const std::vector<NodeId>& cells,
+                StageMemory& memory) {
+  const Forest& forest = state.forest;
+  const int64_t count = static_cast<int64_t>(cells.size());
+  const int64_t tasks = (count + rows_of_a_task - 1) / rows_of_a_task;
+  std::vector<int64_t> rays(static_cast<size_t>(tasks), 0);
+  const bool going_on = tools.team.for_each(
+      tasks,
+      [&](int64_t task, int) {
+        RowTracer tracer(state, tools, settings, emitters);
+        std::vector<Link> links;
+        int64_t bytes = 0;
+        for (int64_t k = task * rows_of_a_task; k < std::min(count, (task + 1) * rows_of_a_task);
+             ++k) {
+          links.clear();
+          if (forest.nodes[cells[k]].exposed > 0) tracer.trace(cells[k], links);
+          state.links[cells[k]].assign({links.data(), links.size()});
+          bytes += static_cast<int64_t>(links.size() * sizeof(Link));
+        }
+        rays[task] = tracer.rays;
+        memory.take(bytes, "rows of rays");
+      },
+      [&](int64_t done) {
+        return tools.progress(static_cast<double>(done) / static_cast<double>(tasks));
+      });
+  for (int64_t r : rays) state.rays += r;
+  if (going_on) memory.settle();
+  return going_on;
+}
+
+}  // namespace hrad
