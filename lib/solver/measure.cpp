@@ -6,6 +6,7 @@
 
 #include "base/frame.h"
 #include "base/hash.h"
+#include "base/low_discrepancy.h"
 #include "solver/ray_gather.h"
 
 namespace hrad {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int most_bands = 16;
 constexpr int measured_patches = 512;
-constexpr int points_of_a_patch = 32;
 constexpr int64_t rays_of_the_balance = 131072;
 
 // Draws items in proportion to their weights, spread evenly: item of draw k of `draws`.
@@ -60,25 +60,32 @@ struct Residual {
 // The patch is measured twice, independently: the product of the two differences has the square of
 // the true one as its mean, without a bias by noise.
 Residual residual_of(const State& state, const StageTools& tools, const RayGather& rays,
-                     NodeId root, uint64_t key, int rays_of_a_point, bool reflected) {
+                     NodeId root, uint64_t key, int rays_of_a_half, bool reflected) {
   const Scene& scene = *state.forest.scene;
   const Surface& surface = state.forest.surfaces[root];
   const int bands = state.bands;
   const bool can_be_sealed = tools.exposure.can_be_sealed(surface.patch, surface.side);
-  double sum[2][most_bands] = {}, unused[most_bands] = {};
+  const Triangle corners = state.forest.root_triangle(root);
+  const Vec3 center = corners.centroid();
+  double radius = 0;
+  for (const Vec3& corner : {corners.a, corners.b, corners.c})
+    radius = std::max(radius, length(corner - center));
+  const RayGather::Choice choice = rays.choice_near(center, surface.normal, radius);
+  double sum[2][most_bands] = {};
   Residual r;
-  for (int k = 0; k < points_of_a_patch; ++k) {
-    const uint64_t h = mix(key, static_cast<uint64_t>(k));
-    // Spread over the patch: each half visits the sixteenths in turn.
-    const int part = (k / 2) % 16;
-    Node place;
-    place.surface = root;
-    place = child_place(child_place(place, part / 4), part % 4);
-    const Vec3 on = point_of(state.forest.triangle(place), h);
-    if (can_be_sealed && tools.exposure.sealed(surface.patch, surface.side, on)) continue;
-    r.rays += rays.sample(on + surface.normal * tools.engine.offset(), surface.normal, h,
-                          rays_of_a_point, sum[k % 2], unused);
-  }
+  for (int half = 0; half < 2; ++half)
+    for (uint32_t k = 0; k < static_cast<uint32_t>(rays_of_a_half); ++k) {
+      // Points and directions spread evenly together, and the points on the emitters.
+      double p[4], light[4], value[most_bands];
+      low_discrepancy_point(mix(key, static_cast<uint64_t>(half), 1), k, p);
+      low_discrepancy_point(mix(key, static_cast<uint64_t>(half), 2), k, light);
+      const double from_a = std::sqrt(p[0]);
+      const Vec3 on = corners.at(from_a * (1 - p[1]), from_a * p[1]);
+      if (can_be_sealed && tools.exposure.sealed(surface.patch, surface.side, on)) continue;
+      r.rays += rays.sample_once(on + surface.normal * tools.engine.offset(), surface.normal, p + 2,
+                                 light, choice, value);
+      for (int b = 0; b < bands; ++b) sum[half][b] += value[b];
+    }
   const double exposed = state.forest.nodes[root].exposed;
   for (int b = 0; b < bands; ++b) {
     const size_t at = static_cast<size_t>(surface.patch) * bands + b;
@@ -87,8 +94,7 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
         factor * exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
     double difference[2];
     for (int half = 0; half < 2; ++half)
-      difference[half] =
-          solved - factor * sum[half][b] / (rays_of_a_point * (points_of_a_patch / 2));
+      difference[half] = solved - factor * sum[half][b] / rays_of_a_half;
     r.square += difference[0] * difference[1];
     r.solved += solved * solved;
     r.signed_sum += (difference[0] + difference[1]) / 2;
@@ -123,35 +129,42 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
   if (roots.empty()) return estimate;
   const EvenDraw draw(weights);
   const RayGather rays(state, tools.engine);
-  const double wanted = 8 * (0.02 / accuracy) * (0.02 / accuracy);
-  const int rays_of_a_point = static_cast<int>(std::max(4.0, std::min(32.0, wanted)));
+  const double wanted = 128 * (0.02 / accuracy) * (0.02 / accuracy);
+  const int rays_of_a_half = static_cast<int>(std::max(64.0, std::min(512.0, wanted)));
   std::vector<Residual> residuals(measured_patches);
   tools.team.for_each(measured_patches, [&](int64_t k, int) {
     const uint64_t h = mix(tools.oracle.seed, static_cast<uint64_t>(k), 0x6572726f72u);
     const size_t pick = draw.pick((static_cast<double>(k) + unit_interval(h)) / measured_patches);
-    residuals[k] = residual_of(state, tools, rays, roots[pick], h, rays_of_a_point, reflected);
+    residuals[k] = residual_of(state, tools, rays, roots[pick], h, rays_of_a_half, reflected);
   });
-  double square = 0, solved = 0, fourth = 0, bias = 0, solved_sum = 0;
+  double square = 0, solved = 0, bias = 0, solved_sum = 0;
   for (const Residual& r : residuals) {
     square += r.square;
-    fourth += r.square * r.square;
     solved += r.solved;
     bias += r.signed_sum;
     solved_sum += r.solved_sum;
     estimate.rays += r.rays;
   }
   if (!(solved > 0)) return estimate;
-  // The mean error is reflected on and on, the rest averages out at the next bounce.
+  const double mean_square = square / solved, relative_bias = bias / solved_sum;
+  double spread_of_square = 0, spread_of_bias = 0;
+  for (const Residual& r : residuals) {
+    const double s = (r.square - mean_square * r.solved) / solved;
+    const double b = (r.signed_sum - relative_bias * r.solved_sum) / solved_sum;
+    spread_of_square += s * s;
+    spread_of_bias += b * b;
+  }
+  // The mean error is reflected on and on, the rest averages out at the next bounce. The square of a
+  // noisy mean is too large by its variance.
   const double mean_reflectance = reflected ? std::min(0.99, reflecting / area) : 0.0;
-  const double relative_bias = bias / solved_sum;
-  const double carried = relative_bias / (1 - mean_reflectance);
-  const double variance =
-      std::max(0.0, square / solved - relative_bias * relative_bias) + carried * carried;
+  const double gain = 1 / ((1 - mean_reflectance) * (1 - mean_reflectance)) - 1;
+  const double bias_square = relative_bias * relative_bias - spread_of_bias;
+  const double variance = std::max(0.0, mean_square + gain * bias_square);
   estimate.error = std::sqrt(variance);
-  const double count = measured_patches;
-  const double spread =
-      std::sqrt(std::max(0.0, fourth / count - (square / count) * (square / count)) / count);
-  const double error_of_square = spread / (solved / count);
+  const double error_of_square =
+      std::sqrt(spread_of_square +
+                gain * gain * spread_of_bias *
+                    (4 * relative_bias * relative_bias + 2 * spread_of_bias));
   estimate.standard_error =
       std::min(std::sqrt(error_of_square), error_of_square / (2 * std::max(estimate.error, 1e-12)));
   return estimate;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/frame.h"
 #include "base/hash.h"
@@ -27,108 +28,153 @@ void fold(double& u, double& v) {
 }
 
 // The bits of k mirrored at the binary point: 0, 1/2, 1/4, 3/4, 1/8 ...
-double reversed_bits(uint32_t k) {
+double reversed_bits_of_fraction(uint32_t k) {
   double value = 0, place = 0.5;
   for (; k; k >>= 1, place /= 2) value += (k & 1) * place;
   return value;
 }
 
+// Of being picked by power, beside 1 for the light that would arrive.
+constexpr double share_by_power = 0.05;
+
+RayGather::Choice choice_of(std::vector<double> weights) {
+  RayGather::Choice choice;
+  double sum = 0, until = 0;
+  for (double w : weights) sum += w;
+  for (double& w : weights) {
+    w /= sum;
+    choice.cumulative.push_back(until += w);
+  }
+  choice.chance = std::move(weights);
+  return choice;
+}
+
 }  // namespace
 
 RayGather::RayGather(const State& state, const VisibilityEngine& engine)
-    : state_(state), engine_(engine) {
+    : state_(state),
+      engine_(engine),
+      emitter_of_(static_cast<size_t>(state.forest.surface_count()), -1) {
   const Scene& scene = *state.forest.scene;
-  double total = 0;
   for (NodeId root = 0; root < state.forest.surface_count(); ++root) {
     const Surface& surface = state.forest.surfaces[root];
     const double power = surface.area * largest_emission(scene, surface.patch);
     if (!(power > 0)) continue;
-    total += power;
+    emitter_of_[root] = static_cast<int32_t>(emitters_.size());
     emitters_.push_back(root);
-    cumulative_.push_back(total);
+    power_.push_back(power);
   }
-  for (double& c : cumulative_) c /= total;
-  chance_.assign(static_cast<size_t>(state.forest.surface_count()), 0.0);
-  for (size_t k = 0; k < emitters_.size(); ++k)
-    chance_[emitters_[k]] = cumulative_[k] - (k ? cumulative_[k - 1] : 0.0);
+  by_power_ = choice_of(power_);
+}
+
+RayGather::Choice RayGather::choice_near(Vec3 center, Vec3 normal, double radius) const {
+  std::vector<double> light;
+  double sum = 0;
+  for (size_t e = 0; e < emitters_.size(); ++e) {
+    const Triangle triangle = state_.forest.root_triangle(emitters_[e]);
+    const Vec3 d = triangle.centroid() - center;
+    const double reach = radius + length(triangle.a - triangle.centroid());
+    const double distance2 = std::max(dot(d, d), reach * reach), distance = std::sqrt(distance2);
+    const double at_x = std::min(1.0, (dot(d, normal) + reach) / distance);
+    const double at_y =
+        std::min(1.0, (reach - dot(d, state_.forest.surfaces[emitters_[e]].normal)) / distance);
+    light.push_back(power_[e] * std::max(0.0, at_x) * std::max(0.0, at_y) / distance2);
+    sum += light.back();
+  }
+  if (!(sum > 0)) return by_power_;
+  for (size_t e = 0; e < light.size(); ++e)
+    light[e] = light[e] / sum + share_by_power * by_power_.chance[e];
+  return choice_of(light);
 }
 
 // Emission that arrives from a point of an emitter at distance d may be found by a cosine ray and by
 // a shadow ray; both together count it once, and neither makes large values where the emitter is
 // near: the balance heuristic (Veach and Guibas, SIGGRAPH '95). This is what a sample of either kind
 // is worth, as irradiance per emission.
-double RayGather::share(NodeId emitter, double distance2, double at_x, double at_y) const {
+double RayGather::share(size_t emitter, double chance, double distance2, double at_x,
+                        double at_y) const {
   const double cosine = at_x / pi;
-  const double by_area =
-      chance_[emitter] * distance2 / (state_.forest.surfaces[emitter].area * at_y);
-  return cosine / (by_area + cosine);
+  const double area = state_.forest.surfaces[emitters_[emitter]].area;
+  return cosine / (chance * distance2 / (area * at_y) + cosine);
 }
 
 int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, int rays, double* sum,
                           double* squares) const {
-  const Scene& scene = *state_.forest.scene;
-  const Forest& forest = state_.forest;
   const int bands = state_.bands;
-  const Frame frame(n);
   const double turn = unit_interval(mix(key, 0x7475726eu));
   int64_t traced = 0;
   for (int k = 0; k < rays; ++k) {
     const uint64_t h = mix(key, static_cast<uint64_t>(k));
-    double value[most_bands] = {};
     // Directions from a Hammersley set, jittered in one coordinate and turned in the other.
     const double u = (k + unit_interval(mix(h, 1))) / rays;
-    const double v = reversed_bits(static_cast<uint32_t>(k)) + turn;
-    const Vec3 direction = frame.cosine_direction(std::min(u, 1 - 1e-12), v < 1 ? v : v - 1);
-    const Hit hit = engine_.nearest(x, direction, 0);
-    ++traced;
-    if (hit.patch >= 0) {
-      const int32_t side = hit.back ? 1 : 0;
-      const NodeId root = forest.root(hit.patch, side);
-      if (root >= 0) {
-        const NodeId leaf = side ? forest.leaf_at(root, hit.v, hit.u)
-                                 : forest.leaf_at(root, hit.u, hit.v);
-        // Sealed or not, the emitted part is the patch's own and even.
-        const double emitted =
-            chance_[root] > 0 ? share(root, hit.t * hit.t, dot(direction, n),
-                                      std::fabs(dot(direction, forest.surfaces[root].normal)))
-                              : 0.0;
-        for (int b = 0; b < bands; ++b) {
-          const double emission = scene.emission[static_cast<size_t>(hit.patch) * bands + b];
-          value[b] += state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission +
-                      emitted * emission;
-        }
-      }
-    }
-    if (!emitters_.empty()) {
-      const double pick = (k + unit_interval(mix(h, 3))) / rays;
-      const size_t e = static_cast<size_t>(
-          std::min<std::ptrdiff_t>(std::upper_bound(cumulative_.begin(), cumulative_.end(), pick) -
-                                       cumulative_.begin(),
-                                   static_cast<std::ptrdiff_t>(cumulative_.size()) - 1));
-      const Surface& emitter = forest.surfaces[emitters_[e]];
-      double su = unit_interval(mix(h, 4)), sv = unit_interval(mix(h, 5));
-      fold(su, sv);
-      const Vec3 y = forest.root_triangle(emitters_[e]).at(su, sv) +
-                     emitter.normal * engine_.offset();
-      const Vec3 d = y - x;
-      const double d2 = dot(d, d), at_x = dot(d, n), at_y = -dot(d, emitter.normal);
-      if (at_x > 0 && at_y > 0 && d2 > 0) {
-        const Hit first = engine_.nearest(x, d, 0);
-        ++traced;
-        if (first.patch < 0 || first.t >= 1) {
-          const double distance = std::sqrt(d2);
-          const double worth = share(emitters_[e], d2, at_x / distance, at_y / distance);
-          for (int b = 0; b < bands; ++b)
-            value[b] += worth * scene.emission[static_cast<size_t>(emitter.patch) * bands + b];
-        }
-      }
-    }
+    const double v = reversed_bits_of_fraction(static_cast<uint32_t>(k)) + turn;
+    const double hemisphere[2] = {std::min(u, 1 - 1e-12), v < 1 ? v : v - 1};
+    const double light[3] = {(k + unit_interval(mix(h, 3))) / rays, unit_interval(mix(h, 4)),
+                             unit_interval(mix(h, 5))};
+    double value[most_bands];
+    traced += sample_once(x, n, hemisphere, light, by_power_, value);
     for (int b = 0; b < bands; ++b) {
       sum[b] += value[b];
       squares[b] += value[b] * value[b];
     }
   }
   return traced;
+}
+
+int64_t RayGather::sample_once(Vec3 x, Vec3 n, const double hemisphere[2], const double light[3],
+                               const Choice& choice, double* value) const {
+  std::fill(value, value + state_.bands, 0.0);
+  add_by_cosine_ray(x, n, hemisphere, choice, value);
+  if (emitters_.empty()) return 1;
+  return 1 + add_by_shadow_ray(x, n, light, choice, value);
+}
+
+// Reflected light, and the share of emitted light that such rays are to find.
+void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], const Choice& choice,
+                                  double* value) const {
+  const Scene& scene = *state_.forest.scene;
+  const Forest& forest = state_.forest;
+  const int bands = state_.bands;
+  const Vec3 direction = Frame(n).cosine_direction(hemisphere[0], hemisphere[1]);
+  const Hit hit = engine_.nearest(x, direction, 0);
+  if (hit.patch < 0) return;
+  const NodeId root = forest.root(hit.patch, hit.back ? 1 : 0);
+  if (root < 0) return;
+  const NodeId leaf =
+      hit.back ? forest.leaf_at(root, hit.v, hit.u) : forest.leaf_at(root, hit.u, hit.v);
+  // Sealed or not, the emitted part is the patch's own and even.
+  const int32_t e = emitter_of_[root];
+  const double emitted =
+      e >= 0 ? share(static_cast<size_t>(e), choice.chance[e], hit.t * hit.t, dot(direction, n),
+                     std::fabs(dot(direction, forest.surfaces[root].normal)))
+             : 0.0;
+  for (int b = 0; b < bands; ++b) {
+    const double emission = scene.emission[static_cast<size_t>(hit.patch) * bands + b];
+    value[b] += state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission +
+                emitted * emission;
+  }
+}
+
+int RayGather::add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Choice& choice,
+                                 double* value) const {
+  const Scene& scene = *state_.forest.scene;
+  const Forest& forest = state_.forest;
+  const auto found = std::upper_bound(choice.cumulative.begin(), choice.cumulative.end(), light[0]);
+  const size_t e = std::min(static_cast<size_t>(found - choice.cumulative.begin()), emitters_.size() - 1);
+  const Surface& emitter = forest.surfaces[emitters_[e]];
+  double su = light[1], sv = light[2];
+  fold(su, sv);
+  const Vec3 y = forest.root_triangle(emitters_[e]).at(su, sv) + emitter.normal * engine_.offset();
+  const Vec3 d = y - x;
+  const double d2 = dot(d, d), at_x = dot(d, n), at_y = -dot(d, emitter.normal);
+  if (!(at_x > 0 && at_y > 0 && d2 > 0)) return 0;
+  const Hit first = engine_.nearest(x, d, 0);
+  if (first.patch >= 0 && first.t < 1) return 1;
+  const double distance = std::sqrt(d2);
+  const double worth = share(e, choice.chance[e], d2, at_x / distance, at_y / distance);
+  for (int b = 0; b < state_.bands; ++b)
+    value[b] += worth * scene.emission[static_cast<size_t>(emitter.patch) * state_.bands + b];
+  return 1;
 }
 
 }  // namespace hrad

@@ -9,23 +9,31 @@ namespace {
 
 constexpr int64_t kPatchPaths = 8000000, kPoints = 10000;
 
+struct Case {
+  const char* linking;
+  double accuracy;
+};
+constexpr Case kCases[] = {{"rows", 0.05}, {"rows", 0.02}, {"rows", 0.01}, {"pairs", 0.05}, {"pairs", 0.02}};
+
 void accuracy_is_kept() {
   ApiSolver loaded;
   loaded.make("furnished-room");
   const MonteCarlo reference(loaded.surfaces(), 20240607);
   const PatchReference patches(reference, kPatchPaths);
   const PointReference points(reference, kPoints, 8, 48, 99);
-  for (double accuracy : {0.05, 0.02}) {
+  for (const Case& c : kCases) {
+    const double accuracy = c.accuracy;
     ApiSolver solver;
     solver.make("furnished-room");
+    solver.set("linking", c.linking);
     solver.set("accuracy", accuracy);
     CHECK_EQUAL(solver.solve(), HRAD_OK);
     const Comparison at_patches = patches.compare(solver, reference);
     const Comparison at_points = points.compare(solver, reference);
     const hrad_stats stats = solver.stats();
     std::printf(
-        "furnished-room at %g: %lld leaves, %lld links, %.2f s; own estimate %.3f %% +- %.3f\n",
-        accuracy, static_cast<long long>(stats.leaves), static_cast<long long>(stats.links),
+        "furnished-room by %s at %g: %lld leaves, %lld links, %.2f s; own estimate %.3f %% +- %.3f\n",
+        c.linking, accuracy, static_cast<long long>(stats.leaves), static_cast<long long>(stats.links),
         stats.cpu_seconds, 100 * stats.error_estimate, 100 * stats.error_standard_error);
     at_patches.print("  patch means");
     at_points.print("  points");

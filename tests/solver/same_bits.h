@@ -18,6 +18,7 @@ struct Surroundings {
 
 struct Case {
   const char* scene;
+  const char* linking;
   const char* oracle;
   double accuracy;
 };
@@ -33,6 +34,7 @@ struct Results {
 inline bool solve_in(const Case& c, const Surroundings& in, Results& results) {
   hrad::Solver solver;
   solver.make_scene(c.scene);
+  solver.set_text("linking", c.linking);
   solver.set_text("oracle", c.oracle);
   solver.set_double("accuracy", c.accuracy);
   solver.set_int("threads", in.threads);
@@ -87,8 +89,8 @@ inline void check_same_bits(const Case& c, const std::vector<Surroundings>& all)
                       other.iterations == first.iterations && other.numbers == first.numbers;
     if (!same)
       failed(__FILE__, __LINE__,
-             hrad::format("%s, oracle=%s: %d threads with %s give other bits than %d with %s",
-                          c.scene, c.oracle, in.threads, in.instruction_set, all[0].threads,
+             hrad::format("%s by %s, oracle=%s: %d threads with %s give other bits than %d with %s",
+                          c.scene, c.linking, c.oracle, in.threads, in.instruction_set, all[0].threads,
                           all[0].instruction_set));
   }
   CHECK(any);
