@@ -1,4 +1,4 @@
-// Joining emitters, and the bound that makes them bright. Floor 6 (links).
+// Joining emitters, and how large they may look. Floor 6 (links).
 #include "links/emitters.h"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ bool Emitters::can_be_bright(const Emitter& e, Vec3 center, double radius) const
                                         (pi * distance * distance)));
 }
 
-double Emitters::factor_bound(const Emitter& e, Vec3 x, Vec3 normal) {
+double Emitters::rough_factor(const Emitter& e, Vec3 x, Vec3 normal) {
   const Vec3 d = e.center - x;
   const double above = -dot(d, e.normal);
   if (!(above > 0)) return 0;

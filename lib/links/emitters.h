@@ -29,14 +29,14 @@ class Emitters {
   const std::vector<Emitter>& all() const { return emitters_; }
   // Number of the emitter that a root belongs to, -1: it is none.
   int32_t of_root(NodeId root) const { return of_root_[root]; }
-  // Bound of the emitter's form factor at x on a surface of this normal, 0 behind a horizon: a matter
-  // of geometry alone, whether it is seen or not.
-  static double factor_bound(const Emitter& emitter, Vec3 x, Vec3 normal);
+  // About the emitter's form factor at x on a surface of this normal, 0 behind a horizon: a matter of
+  // geometry alone, whether it is seen or not.
+  static double rough_factor(const Emitter& emitter, Vec3 x, Vec3 normal);
   bool is_bright(const Emitter& emitter, double factor) const {
     return emitter.brightness * emitter.brightness * factor > least_bright_;
   }
   bool bright(const Emitter& emitter, Vec3 x, Vec3 normal) const {
-    return is_bright(emitter, factor_bound(emitter, x, normal));
+    return is_bright(emitter, rough_factor(emitter, x, normal));
   }
   // False: at no point of this ball is the emitter bright.
   bool can_be_bright(const Emitter& emitter, Vec3 center, double radius) const;

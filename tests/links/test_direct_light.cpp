@@ -1,0 +1,189 @@
+// Light straight from emitters, against Lambert's formula, and who counts as one.
+#include <cmath>
+#include <vector>
+
+#include "base/angle.h"
+#include "links/direct_light.h"
+#include "links/form_factor.h"
+#include "support/workbench.h"
+#include "visibility/brute_force.h"
+
+namespace {
+
+using namespace hrad;
+using namespace hrad_test;
+
+// A scene with its emitters as linking by rows sees them.
+struct Lit {
+  explicit Lit(Scene s, double noise = 1e-6, double least_bright = 1e-9)
+      : bench(std::move(s)),
+        expected(expected_brightness(bench.state)),
+        emitters(bench.state.forest, expected.of_node, least_bright),
+        grid(emitters, *bench.engine, 0.7),
+        light(bench.state.forest, *bench.engine, emitters, grid, noise) {}
+
+  double at(Vec3 x, Vec3 normal, uint64_t key = 1) {
+    grid.open({{x, normal}}, bench.team);
+    std::vector<Link> links;
+    rays = light.sample({x, normal}, key, links);
+    double sum = 0;
+    for (const Link& link : links) sum += link.weight;
+    return sum;
+  }
+
+  Workbench bench;
+  Brightness expected;
+  Emitters emitters;
+  LightGrid grid;
+  DirectLight light;
+  int64_t rays = 0;
+};
+
+void make_last_emit(Scene& scene, int64_t patches, double emission) {
+  const size_t first = scene.emission.size() - static_cast<size_t>(patches * scene.bands);
+  for (size_t k = first; k < scene.emission.size(); ++k) scene.emission[k] = emission;
+}
+
+// A floor of side 10 under a square lamp of side `side` at height 1, which shines down.
+Scene floor_and_lamp(double side) {
+  Scene scene;
+  add_quad(scene, {-5, -5, 0}, {10, 0, 0}, {0, 10, 0});
+  add_quad(scene, {-side / 2, -side / 2, 1}, {0, side, 0}, {side, 0, 0});
+  make_last_emit(scene, 2, 100);
+  return scene;
+}
+
+double exact(const Scene& scene, Vec3 x, Vec3 normal) {
+  return point_to_triangle(x, normal, scene.triangle(2)) +
+         point_to_triangle(x, normal, scene.triangle(3));
+}
+
+const Vec3 up{0, 0, 1};
+
+void unoccluded_light_is_lamberts() {
+  for (double side : {1e-6, 0.01, 0.3, 2.0, 6.0}) {
+    Lit lit(floor_and_lamp(side));
+    CHECK_EQUAL(lit.emitters.all().size(), size_t{1});
+    for (const Vec3& x : {Vec3{0.1, 0.2, 0}, Vec3{1, -0.7, 0}, Vec3{4.9, 4.8, 0}}) {
+      const double wanted =
+          side < 1e-3 ? side * side / pi / std::pow(dot(x, x) + 1, 2) : exact(lit.bench.scene, x, up);
+      CHECK_NEAR(lit.at(x, up), wanted, 2e-3 * wanted);
+    }
+  }
+}
+
+void behind_a_horizon_there_is_none() {
+  Lit lit(floor_and_lamp(0.3));
+  CHECK_EQUAL(lit.at({0.1, 0.2, 0}, -up), 0.0);  // looks away
+  CHECK_EQUAL(lit.at({0.1, 0.2, 2}, -up), 0.0);  // sees its back
+  // A wall through the middle of the lamp sees one half of it, whichever way it looks.
+  const Vec3 x{0, 3, 0.5}, left{-1, 0, 0};
+  CHECK_NEAR(lit.at(x, left) + lit.at(x, -left), 2 * exact(lit.bench.scene, x, left),
+             0.02 * exact(lit.bench.scene, x, left));
+}
+
+// A plate hides all of the lamp with x < 0; the mean over points of the floor below its edge.
+void half_a_lamp_is_hidden() {
+  Scene scene = floor_and_lamp(0.5);
+  add_quad(scene, {-3, -3, 0.999}, {3, 0, 0}, {0, 6, 0});
+  Lit lit(scene);
+  double sum = 0, wanted = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 x{0, -2 + 0.02 * k, 0};
+    sum += lit.at(x, up, static_cast<uint64_t>(k));
+    wanted += exact(lit.bench.scene, x, up) / 2;
+  }
+  CHECK_NEAR(sum, wanted, 0.01 * wanted);
+}
+
+// Weak light takes one ray: any single answer is all or nothing, their mean is right.
+void few_rays_are_unbiased() {
+  Scene scene = floor_and_lamp(0.5);
+  add_quad(scene, {-3, -3, 0.999}, {3, 0, 0}, {0, 6, 0});
+  Lit lit(scene, 1e6);
+  const Vec3 x{0, 1.5, 0};
+  double sum = 0, squares = 0;
+  constexpr int keys = 4000;
+  for (int k = 0; k < keys; ++k) {
+    const double value = lit.at(x, up, static_cast<uint64_t>(k));
+    CHECK_EQUAL(lit.rays, int64_t{1});
+    sum += value;
+    squares += value * value;
+  }
+  const double mean = sum / keys, error = std::sqrt((squares / keys - mean * mean) / keys);
+  const double wanted = exact(lit.bench.scene, x, up) / 2;
+  CHECK_NEAR(mean, wanted, 4 * error + 0.02 * wanted);
+}
+
+// What shines no brighter than all else is left to the rays.
+void a_furnace_has_no_bright_emitters() {
+  Scene scene = builtin_scene("furnace");
+  Lit lit(scene);
+  CHECK_EQUAL(lit.emitters.all().size(), size_t{0});
+}
+
+// Faces of one polygon are one emitter; those in another plane or of another colour are not.
+void faces_are_joined() {
+  Scene scene;
+  add_quad(scene, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
+  add_quad(scene, {0, 0, 3}, {0, 1, 0}, {1, 0, 0});
+  add_quad(scene, {5, 0, 3}, {0, 1, 0}, {1, 0, 0.5});
+  make_last_emit(scene, 4, 100);
+  add_quad(scene, {9, 0, 3}, {0, 1, 0}, {1, 0, 0});
+  make_last_emit(scene, 1, 70);
+  make_last_emit(scene, 1, 90);
+  const Lit lit(scene);
+  CHECK_EQUAL(lit.emitters.of_root(0), -1);
+  CHECK_EQUAL(lit.emitters.of_root(2), lit.emitters.of_root(3));
+  CHECK(lit.emitters.of_root(2) != lit.emitters.of_root(4));
+  CHECK_EQUAL(lit.emitters.of_root(4), lit.emitters.of_root(5));
+  for (const Emitter& e : lit.emitters.all())
+    for (const Vec3& p : e.point) CHECK(length(p - e.center) <= e.radius * (1 + 1e-9));
+}
+
+// A cube of the grid knows every emitter that is bright at one of its points.
+void the_grid_misses_none() {
+  for (double least : {1e-3, 1.0, 30.0}) {
+    Lit lit(floor_and_lamp(0.4), 1, least);
+    const Emitter& lamp = lit.emitters.all().front();
+    Random random(3);
+    int bright = 0, dim = 0;
+    for (int k = 0; k < 4000; ++k) {
+      const Vec3 center = random.in_cube(6), direction = normalized(random.in_cube(1));
+      const double radius = 0.1 + random.unit();
+      const Vec3 x = center + random.in_cube(1) * (radius / 1.7321);
+      const bool is = lit.emitters.bright(lamp, x, direction);
+      (is ? bright : dim) += 1;
+      if (is) CHECK(lit.emitters.can_be_bright(lamp, center, radius));
+    }
+    CHECK(bright > 20 && dim > 20);
+  }
+}
+
+// From under a lid no pilot ray meets the lamp; beside it some do.
+void pilot_rays_tell_what_is_hidden() {
+  Scene scene = floor_and_lamp(0.3);
+  add_quad(scene, {-5, -5, 0.5}, {5, 0, 0}, {0, 10, 0});
+  Lit lit(scene);
+  const OrientedPoint under{{-2.5, 0.3, 0}, up}, beside{{2.5, 0.3, 0}, up};
+  lit.grid.open({under, beside}, lit.bench.team);
+  CHECK_EQUAL(lit.grid.at(under).size(), size_t{1});
+  CHECK(lit.grid.at(under).front().hidden);
+  CHECK(!lit.grid.at(beside).front().hidden);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      HRAD_TEST(unoccluded_light_is_lamberts),
+      HRAD_TEST(behind_a_horizon_there_is_none),
+      HRAD_TEST(half_a_lamp_is_hidden),
+      HRAD_TEST(few_rays_are_unbiased),
+      HRAD_TEST(a_furnace_has_no_bright_emitters),
+      HRAD_TEST(faces_are_joined),
+      HRAD_TEST(the_grid_misses_none),
+      HRAD_TEST(pilot_rays_tell_what_is_hidden),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

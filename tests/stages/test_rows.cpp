@@ -1,0 +1,201 @@
+// Linking by rows: rows that sum to one, light counted once, a mesh that follows the light.
+#include <cmath>
+#include <vector>
+
+#include "stages/rows.h"
+#include "support/workbench.h"
+#include "visibility/brute_force.h"
+
+namespace {
+
+using namespace hrad;
+using namespace hrad_test;
+
+struct Rows {
+  explicit Rows(Scene s, RowSettings given = {}) : bench(std::move(s)), settings(given) {
+    double area = 0;
+    for (const Surface& surface : bench.state.forest.surfaces) area += surface.area;
+    settings.cell_area = area / 500;
+    settings.least_cell_area = settings.cell_area / 256;
+    settings.min_area = settings.cell_area / 1024;
+    const LinkSampler sampler = bench.sampler();
+    for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
+  }
+  bool link() { return link_rows(bench.state, bench.tools({}), settings); }
+
+  // Weights of the rows of the cells above a leaf, and of the light at its corners.
+  double weight_of_leaf(NodeId leaf) const {
+    const State& state = bench.state;
+    double sum = 0;
+    for (NodeId id = leaf; id >= 0; id = state.forest.nodes[id].parent)
+      for (const Link& link : state.links[id].links()) sum += link.weight;
+    int corners = 0;
+    double direct = 0;
+    for (int32_t corner : state.direct.of_leaf[leaf]) {
+      if (corner < 0) continue;
+      ++corners;
+      for (int64_t k = state.direct.first[corner]; k < state.direct.first[corner + 1]; ++k)
+        direct += state.direct.links[k].weight;
+    }
+    return sum + (corners ? direct / corners : 0);
+  }
+
+  Workbench bench;
+  RowSettings settings;
+};
+
+void set_light(Scene& scene, int64_t first, int64_t count, double emission, double reflectance) {
+  for (int64_t k = first * scene.bands; k < (first + count) * scene.bands; ++k) {
+    scene.emission[static_cast<size_t>(k)] = emission;
+    scene.reflectance[static_cast<size_t>(k)] = reflectance;
+  }
+}
+
+// A closed room with a box on the floor and a lamp under the ceiling.
+Scene room_with_lamp() {
+  Scene scene;
+  add_box(scene, {0, 0, 0}, {4, 3, 2.5}, true);
+  add_box(scene, {1, 1, 0}, {1.6, 1.5, 0.8});
+  const int64_t lamp = scene.patch_count();
+  add_box(scene, {1.8, 1.3, 2.3}, {2.2, 1.7, 2.35});
+  set_light(scene, 0, scene.patch_count(), 0, 0.5);
+  set_light(scene, lamp, 2, 50, 0.5);
+  return scene;
+}
+
+// Where nothing is brighter than the rest a row of a closed scene sums to one, whatever is sealed.
+void rows_of_a_closed_scene_sum_to_one() {
+  Scene scene = room_with_lamp();
+  set_light(scene, 0, scene.patch_count(), 1, 0.5);
+  Rows rows(scene);
+  CHECK(rows.link());
+  const State& state = rows.bench.state;
+  CHECK(state.direct.links.empty());
+  int64_t exposed = 0;
+  for (NodeId cell : state.cells) {
+    if (!(state.forest.nodes[cell].exposed > 0)) {
+      CHECK_EQUAL(state.links[cell].count(), 0);
+      continue;
+    }
+    ++exposed;
+    double sum = 0;
+    for (const Link& link : state.links[cell].links()) {
+      CHECK(link.weight > 0);
+      sum += link.weight;
+    }
+    CHECK_NEAR(sum, 1, 1e-6);
+  }
+  CHECK(exposed > 400);
+}
+
+// What comes straight from the lamp and what comes by rays together is all there is: one on the
+// average, a little off by chance.
+void light_of_a_lamp_is_counted_once() {
+  Rows rows(room_with_lamp());
+  rows.settings.rays_of_cell = 256;
+  CHECK(rows.link());
+  const State& state = rows.bench.state;
+  CHECK(!state.direct.links.empty());
+  double sum = 0, squares = 0, area = 0;
+  for (NodeId leaf : state.forest.leaves()) {
+    const Node& node = state.forest.nodes[leaf];
+    if (!(node.exposed > 0)) continue;
+    const double weight = rows.weight_of_leaf(leaf), a = state.forest.area(node) * node.exposed;
+    sum += a * weight;
+    squares += a * (weight - 1) * (weight - 1);
+    area += a;
+  }
+  CHECK_NEAR(sum / area, 1, 5e-4);
+  CHECK(std::sqrt(squares / area) < 0.02);
+}
+
+// Every surface is covered by cells once, and every exposed leaf has light at its corners.
+void cells_cover_all_surfaces() {
+  Rows rows(room_with_lamp());
+  CHECK(rows.link());
+  const State& state = rows.bench.state;
+  std::vector<double> covered(static_cast<size_t>(state.forest.surface_count()), 0.0);
+  for (NodeId cell : state.cells) {
+    const Node& node = state.forest.nodes[cell];
+    covered[node.surface] += state.forest.area(node);
+    for (NodeId above = node.parent; above >= 0; above = state.forest.nodes[above].parent)
+      CHECK_EQUAL(state.links[above].count(), 0);
+  }
+  for (size_t k = 0; k < covered.size(); ++k)
+    CHECK_NEAR(covered[k] / state.forest.surfaces[k].area, 1, 1e-12);
+  for (NodeId id = 0; id < static_cast<NodeId>(state.forest.nodes.size()); ++id)
+    for (int32_t corner : state.direct.of_leaf[id]) {
+      const bool may_have = state.forest.is_leaf(id) && state.forest.nodes[id].exposed > 0;
+      if (!may_have) CHECK_EQUAL(corner, -1);
+      CHECK(corner < static_cast<int32_t>(state.direct.place.size()));
+    }
+}
+
+// Leaves are small at the edge of the shadow that a plate throws, and large away from it.
+void the_mesh_follows_the_shadow() {
+  Scene scene;
+  add_quad(scene, {0, 0, 0}, {4, 0, 0}, {0, 4, 0});
+  add_quad(scene, {0, 0, 0.3}, {2, 0, 0}, {0, 4, 0});  // its edge above x = 2
+  add_quad(scene, {1.99, 1.99, 2}, {0, 0.02, 0}, {0.02, 0, 0});
+  set_light(scene, 0, 4, 0, 0.5);
+  set_light(scene, 4, 2, 1e5, 0.5);
+  Rows rows(scene);
+  CHECK(rows.link());
+  const Forest& forest = rows.bench.state.forest;
+  double near = 0, far = 0;
+  int n_near = 0, n_far = 0;
+  for (NodeId leaf : forest.leaves()) {
+    if (forest.nodes[leaf].surface > 1) continue;
+    const double x = forest.triangle(forest.nodes[leaf]).centroid().x;
+    const double leg = std::sqrt(2 * forest.area(forest.nodes[leaf]));
+    if (std::fabs(x - 2) < 0.02) near += leg, ++n_near;
+    if (x < 1.5) far += leg, ++n_far;
+  }
+  CHECK(n_near > 0 && n_far > 0);
+  CHECK(near / n_near < 0.25 * far / n_far);
+}
+
+// Points of one solution are within the noise of another seed's.
+void seeds_differ_by_noise_alone() {
+  std::vector<double> totals;
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    Rows rows(room_with_lamp());
+    rows.settings.seed = seed;
+    CHECK(rows.link());
+    rows.bench.sweep(30);
+    totals.push_back(transported(rows.bench.state, rows.bench.team)[0]);
+  }
+  for (const double& total : totals) {
+    CHECK_NEAR(total, totals[0], 0.01 * totals[0]);
+    if (&total != &totals[0]) CHECK(total != totals[0]);
+  }
+}
+
+void a_stop_is_heeded() {
+  for (double at : {0.0, 0.2, 0.5, 0.9}) {
+    Rows rows(room_with_lamp());
+    StageTools tools = rows.bench.tools({});
+    double reached = 0;
+    tools.progress = [&](double fraction) {
+      CHECK(fraction >= 0 && fraction <= 1);
+      reached = fraction;
+      return fraction < at;
+    };
+    CHECK(!link_rows(rows.bench.state, tools, rows.settings));
+    CHECK(reached >= at);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      HRAD_TEST(rows_of_a_closed_scene_sum_to_one),
+      HRAD_TEST(light_of_a_lamp_is_counted_once),
+      HRAD_TEST(cells_cover_all_surfaces),
+      HRAD_TEST(the_mesh_follows_the_shadow),
+      HRAD_TEST(seeds_differ_by_noise_alone),
+      HRAD_TEST(a_stop_is_heeded),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
