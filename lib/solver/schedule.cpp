@@ -38,7 +38,7 @@ constexpr double row_variation = 0.03;
 constexpr double row_rays = 64, least_row_rays = 16, fewest_rays = 4;
 constexpr double direct_tolerance = 0.1, largest_tolerance = 0.2;
 constexpr double least_bright = 0.05;
-constexpr double least_cell_share = 1.0 / 256, least_element_share = 1.0 / 1024;
+constexpr double least_cell_share = 1.0 / 256, least_element_share = 1.0 / (1 << 20);
 
 }  // namespace
 
