@@ -61,8 +61,8 @@ inline constexpr SobolTables sobol_tables;
 
 // Point k of the sequence of this key.
 inline void low_discrepancy_point(uint64_t key, uint32_t k, double point[4]) {
-  // From a block of the sequence that the key picks, in an order of its own: parts of it are as good
-  // as its beginning.
+  // From a block of the sequence that the key picks, in an order of its own: parts of it are as
+  // good as its beginning.
   const uint32_t index = owen_scrambled(k, static_cast<uint32_t>(mix(key, 4)));
   uint32_t x[4] = {reversed_bits(index), 0, 0, 0};
   for (int d = 0; d < 3; ++d)

@@ -100,8 +100,7 @@ void DirectLight::add(const Emitter& e, int rays, uint64_t key, const OrientedPo
   }
 }
 
-void DirectLight::finish(const OrientedPoint& point, Batch& batch,
-                         std::vector<Link>& links) const {
+void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<Link>& links) const {
   if (batch.used == 0) return;
   for (int k = batch.used; k < 16; ++k) batch.packet.set(k, Vec3{0, 0, 0}, Vec3{1, 0, 0});
   batch.rays += __builtin_popcount(batch.packet.active);
@@ -116,7 +115,8 @@ void DirectLight::finish(const OrientedPoint& point, Batch& batch,
     // A strip above the horizon that all points miss is taken for visible.
     if (all > 0 && !(visible > 0)) continue;
     const double share = all > 0 ? visible / all : 1;
-    const bool far = length(part.emitter->center - point.place) > point_radii * part.emitter->radius;
+    const bool far =
+        length(part.emitter->center - point.place) > point_radii * part.emitter->radius;
     for (NodeId root : part.emitter->surfaces) {
       const Triangle triangle = forest_.root_triangle(root);
       const double factor =

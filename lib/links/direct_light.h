@@ -1,6 +1,6 @@
 // Light straight from bright emitters to a point: exact form factors (Lambert) times the visible
-// fraction by sixteen shadow rays spread over the emitter, or over what is seen of its parts where it
-// is near. Floor 6 (links).
+// fraction by sixteen shadow rays spread over the emitter, or over what is seen of its parts where
+// it is near. Floor 6 (links).
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ namespace hrad {
 class DirectLight {
  public:
   // noise: what the visible fraction of an emitter may be off by, times the light that it would
-  // bring, in units of the mean irradiance: weak ones take fewer than sixteen rays. All must outlive
-  // this.
+  // bring, in units of the mean irradiance: weak ones take fewer than sixteen rays. All must
+  // outlive this.
   DirectLight(const Forest& forest, const VisibilityEngine& engine, const Emitters& emitters,
               const LightGrid& grid, double noise);
 
   // Appends one link per visible surface of every emitter that is bright there,
-  // weight = form factor times visible fraction. The point lies on a surface, not lifted. Any thread.
-  // Returns the number of rays.
+  // weight = form factor times visible fraction. The point lies on a surface, not lifted. Any
+  // thread. Returns the number of rays.
   int64_t sample(const OrientedPoint& point, uint64_t key, std::vector<Link>& links) const;
 
  private:

@@ -69,8 +69,8 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
     const Surface& surface = forest.surfaces[root];
     const double* emission = &scene.emission[static_cast<size_t>(surface.patch) * scene.bands];
     if (!std::any_of(emission, emission + scene.bands, [](double e) { return e > 0; })) continue;
-    // In an enclosure the mean radiosity equals the mean irradiance: what shines no brighter than all
-    // else makes no noise.
+    // In an enclosure the mean radiosity equals the mean irradiance: what shines no brighter than
+    // all else makes no noise.
     const double excess = brightness[root] - 1.0;
     if (!(excess > 0)) continue;
     // Faces of one polygon follow each other.
@@ -79,8 +79,7 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
       const Surface& other = forest.surfaces[last.surfaces.back()];
       if (last.surfaces.size() < most_surfaces_of_an_emitter && last.brightness == excess &&
           dot(surface.normal, last.normal) > same_plane && shine_alike(scene, surface, other) &&
-          share_an_edge(forest.root_triangle(root),
-                        forest.root_triangle(last.surfaces.back()))) {
+          share_an_edge(forest.root_triangle(root), forest.root_triangle(last.surfaces.back()))) {
         last.surfaces.push_back(root);
         of_root_[root] = static_cast<int32_t>(emitters_.size()) - 1;
         continue;
@@ -100,8 +99,8 @@ bool Emitters::can_be_bright(const Emitter& e, Vec3 center, double radius) const
   const double above = radius - dot(d, e.normal);
   if (!(above > 0)) return false;
   const double distance = std::max(length(d) - radius, e.radius);
-  return is_bright(e, std::min(1.0, e.area * std::min(1.0, above / distance) /
-                                        (pi * distance * distance)));
+  return is_bright(
+      e, std::min(1.0, e.area * std::min(1.0, above / distance) / (pi * distance * distance)));
 }
 
 double Emitters::rough_factor(const Emitter& e, Vec3 x, Vec3 normal) {

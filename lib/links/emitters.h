@@ -1,5 +1,5 @@
-// The bright emitters, those whose light comes through links of its own rather than by chance: joined
-// where they lie in one plane, side by side, with the same emission. Floor 6 (links).
+// The bright emitters, those whose light comes through links of its own rather than by chance:
+// joined where they lie in one plane, side by side, with the same emission. Floor 6 (links).
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,15 @@ struct Emitter {
 class Emitters {
  public:
   // brightness: per root, its radiosity in units of the scene's mean irradiance, reflected light
-  // included. least_bright: what brightness squared times form factor must reach for an emitter to be
-  // bright where it is seen so large.
+  // included. least_bright: what brightness squared times form factor must reach for an emitter to
+  // be bright where it is seen so large.
   Emitters(const Forest& forest, const std::vector<float>& brightness, double least_bright);
 
   const std::vector<Emitter>& all() const { return emitters_; }
   // Number of the emitter that a root belongs to, -1: it is none.
   int32_t of_root(NodeId root) const { return of_root_[root]; }
-  // About the emitter's form factor at x on a surface of this normal, 0 behind a horizon: a matter of
-  // geometry alone, whether it is seen or not.
+  // About the emitter's form factor at x on a surface of this normal, 0 behind a horizon: a matter
+  // of geometry alone, whether it is seen or not.
   static double rough_factor(const Emitter& emitter, Vec3 x, Vec3 normal);
   bool is_bright(const Emitter& emitter, double factor) const {
     return emitter.brightness * emitter.brightness * factor > least_bright_;

@@ -70,8 +70,8 @@ bool LightGrid::hidden(const Emitter& emitter, const std::vector<OrientedPoint>&
     const size_t count = cube.points.size();
     for (size_t k = 0; k < 16; ++k) {
       const size_t turn = 16 * static_cast<size_t>(pass) + k;
-      const OrientedPoint& p = points[cube.points[count > 16 ? turn * count / (16 * pilot_packets)
-                                                             : turn % count]];
+      const OrientedPoint& p =
+          points[cube.points[count > 16 ? turn * count / (16 * pilot_packets) : turn % count]];
       const Vec3 from = p.place + p.normal * engine_.offset();
       // Another point of the emitter each time round.
       const Vec3 y = emitter.point[(k + 5 * static_cast<size_t>(pass)) % 16];

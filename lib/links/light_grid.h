@@ -1,6 +1,6 @@
-// Which bright emitters there are to be sampled, looked up together for all points of a cube of space
-// that face the same way, and which of them pilot rays find hidden from there: few rays do for those,
-// so that rooms that don't see each other cost each other little. Floor 6 (links).
+// Which bright emitters there are to be sampled, looked up together for all points of a cube of
+// space that face the same way, and which of them pilot rays find hidden from there: few rays do
+// for those, so that rooms that don't see each other cost each other little. Floor 6 (links).
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ class LightGrid {
   LightGrid(const Emitters& emitters, const VisibilityEngine& engine, double size)
       : emitters_(emitters), engine_(engine), size_(size) {}
 
-  // Opens the cubes that these points lie in; their pilot rays start at the points. Returns the number
-  // of rays.
+  // Opens the cubes that these points lie in; their pilot rays start at the points. Returns the
+  // number of rays.
   int64_t open(const std::vector<OrientedPoint>& points, ThreadTeam& team);
 
   struct Candidate {

@@ -68,9 +68,11 @@ CornerIndex::CornerIndex(const Forest& forest) {
       ++end;
     for (size_t a = first; a < end; ++a)
       for (size_t b = a + 1; b < std::min(end, a + 8); ++b) {
-        const Surface &x = forest.surfaces[edges[a].surface], &y = forest.surfaces[edges[b].surface];
+        const Surface &x = forest.surfaces[edges[a].surface],
+                      &y = forest.surfaces[edges[b].surface];
         if (dot(x.normal, y.normal) < same_plane) continue;
-        const int32_t p = find_root(plane_, edges[a].surface), q = find_root(plane_, edges[b].surface);
+        const int32_t p = find_root(plane_, edges[a].surface),
+                      q = find_root(plane_, edges[b].surface);
         plane_[std::max(p, q)] = std::min(p, q);
       }
     first = end;
@@ -84,8 +86,7 @@ CornerIndex::Key CornerIndex::key_of_point(int32_t surface, LatticePoint p) cons
   // Weights of the three root corners; two zeros: a vertex, one: on an edge, none: inside.
   const int32_t weight[3] = {rest, p.i, p.j};
   const int zeros = (rest == 0) + (p.i == 0) + (p.j == 0);
-  if (zeros == 0)
-    return {surface, (static_cast<int64_t>(p.i) << 20 | p.j) << 2};
+  if (zeros == 0) return {surface, (static_cast<int64_t>(p.i) << 20 | p.j) << 2};
   int first = 0;
   while (weight[first] == 0) ++first;
   const int64_t plane = plane_[surface];

@@ -33,8 +33,8 @@ class CornerIndex {
   };
   Key key_of_point(int32_t surface, LatticePoint point) const;
 
-  std::vector<int32_t> plane_;               // per surface: surfaces joined in one plane
-  std::vector<int32_t> vertex_;              // per surface and corner: welded vertex
+  std::vector<int32_t> plane_;                         // per surface: surfaces joined in one plane
+  std::vector<int32_t> vertex_;                        // per surface and corner: welded vertex
   std::unordered_map<Key, int32_t, KeyHash> numbers_;  // looked up only, never walked through
 };
 

@@ -154,17 +154,16 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
     spread_of_square += s * s;
     spread_of_bias += b * b;
   }
-  // The mean error is reflected on and on, the rest averages out at the next bounce. The square of a
-  // noisy mean is too large by its variance.
+  // The mean error is reflected on and on, the rest averages out at the next bounce. The square of
+  // a noisy mean is too large by its variance.
   const double mean_reflectance = reflected ? std::min(0.99, reflecting / area) : 0.0;
   const double gain = 1 / ((1 - mean_reflectance) * (1 - mean_reflectance)) - 1;
   const double bias_square = relative_bias * relative_bias - spread_of_bias;
   const double variance = std::max(0.0, mean_square + gain * bias_square);
   estimate.error = std::sqrt(variance);
   const double error_of_square =
-      std::sqrt(spread_of_square +
-                gain * gain * spread_of_bias *
-                    (4 * relative_bias * relative_bias + 2 * spread_of_bias));
+      std::sqrt(spread_of_square + gain * gain * spread_of_bias *
+                                       (4 * relative_bias * relative_bias + 2 * spread_of_bias));
   estimate.standard_error =
       std::min(std::sqrt(error_of_square), error_of_square / (2 * std::max(estimate.error, 1e-12)));
   return estimate;

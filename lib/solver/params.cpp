@@ -40,7 +40,7 @@ constexpr ParamRow kTable[] = {
                "all bands together, over the patches that do not emit."),
     text_row("linking", true, &Params::linking, "pairs|clusters|rows|auto",
              "Method of linking: pairs of patches as in the paper, clusters of patches, rows of "
-             "rays, or the one that suits the scene."),
+             "rays, or the one that suits the scene and the accuracy."),
     text_row("oracle", true, &Params::oracle, "energy|error",
              "What decides that a link is refined: the energy that it transports, or the estimate "
              "of its error."),

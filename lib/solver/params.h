@@ -13,23 +13,23 @@ struct Params {
   // Result parameters: they decide the bits.
   int64_t bands = 3;
   double accuracy = 0.02;
-  std::string linking = "auto";        // pairs | clusters | rows | auto
-  std::string oracle = "error";        // energy | error
-  double bf_epsilon = 0;               // W; 0: from accuracy
-  double min_area = 0;                 // unit^2; 0: from accuracy and the scene
-  double tolerance = 0;                // of a link, relative; 0: from accuracy
-  int64_t max_iterations = 2000;       // sweeps
-  int64_t refine = 1;                  // 0: sweeps on the present links alone
+  std::string linking = "auto";   // pairs | clusters | rows | auto
+  std::string oracle = "error";   // energy | error
+  double bf_epsilon = 0;          // W; 0: from accuracy
+  double min_area = 0;            // unit^2; 0: from accuracy and the scene
+  double tolerance = 0;           // of a link, relative; 0: from accuracy
+  int64_t max_iterations = 2000;  // sweeps
+  int64_t refine = 1;             // 0: sweeps on the present links alone
   int64_t seed = 1;
   std::string unit = "m";
   std::string visibility = "builtin";  // builtin | embree
   std::string sides = "front";         // front | two-sided | flip
   // Run parameters: they never change a bit.
-  int64_t threads = 0;                 // 0: from hwloc
-  int64_t smt = 0;                     // 1: also use the cores' further contexts
-  int64_t bind = 0;                    // 1: pin threads
-  std::string partition = "cost";      // cost | grid
-  int64_t max_memory = 0;              // bytes; 0: no limit
+  int64_t threads = 0;                   // 0: from hwloc
+  int64_t smt = 0;                       // 1: also use the cores' further contexts
+  int64_t bind = 0;                      // 1: pin threads
+  std::string partition = "cost";        // cost | grid
+  int64_t max_memory = 0;                // bytes; 0: no limit
   std::string instruction_set = "auto";  // auto | sse2 | avx2 | avx512: forces the ray kernels
 };
 

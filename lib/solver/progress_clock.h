@@ -1,5 +1,5 @@
-// Progress of one solve: fractions of stages laid end to end, told to the user a few times a second.
-// Floor 8 (solver).
+// Progress of one solve: fractions of stages laid end to end, told to the user a few times a
+// second. Floor 8 (solver).
 #pragma once
 
 #include <algorithm>

@@ -49,7 +49,8 @@ void node_values(const State& state, NodeId id, Quantity quantity, double* out) 
   for (int b = 0; b < state.bands; ++b) {
     const double irradiance =
         node.exposed * state.irradiance[static_cast<size_t>(id) * state.bands + b];
-    out[b] = value_of(quantity, scene.emission[patch + b], scene.reflectance[patch + b], irradiance);
+    out[b] =
+        value_of(quantity, scene.emission[patch + b], scene.reflectance[patch + b], irradiance);
   }
 }
 
@@ -62,8 +63,7 @@ void Solver::Solution::prepare_queries() {
 
 const Reconstruction& Solver::reconstruction() const {
   Solution& s = *solution_;
-  if (!s.reconstruction)
-    s.reconstruction = std::make_unique<Reconstruction>(s.state, s.leaves);
+  if (!s.reconstruction) s.reconstruction = std::make_unique<Reconstruction>(s.state, s.leaves);
   return *s.reconstruction;
 }
 
@@ -164,7 +164,8 @@ void Solver::query_sensors(int64_t count, const double* xyz, const double* norma
     double mean[most_bands] = {}, squares[most_bands] = {};
     for (int group = 0; group < groups; ++group) {
       double sum[most_bands] = {}, unused[most_bands] = {};
-      gather.sample(x, n, mix(key.value(), static_cast<uint64_t>(group)), rays / groups, sum, unused);
+      gather.sample(x, n, mix(key.value(), static_cast<uint64_t>(group)), rays / groups, sum,
+                    unused);
       for (int b = 0; b < bands; ++b) {
         const double value = sum[b] / (rays / groups);
         mean[b] += value / groups;
@@ -213,8 +214,8 @@ void Solver::leaf_corner_radiosity(int64_t index, double* out) const {
   if (node.exposed > 0) reconstruction().corners(leaf, irradiance);
   for (int c = 0; c < 3; ++c)
     for (int b = 0; b < scene_.bands; ++b)
-      out[c * scene_.bands + b] =
-          scene_.emission[patch + b] + scene_.reflectance[patch + b] * irradiance[c * scene_.bands + b];
+      out[c * scene_.bands + b] = scene_.emission[patch + b] +
+                                  scene_.reflectance[patch + b] * irradiance[c * scene_.bands + b];
 }
 
 std::array<int32_t, 3> Solver::leaf_corner_numbers(int64_t index) const {

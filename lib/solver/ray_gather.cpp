@@ -87,10 +87,10 @@ RayGather::Choice RayGather::choice_near(Vec3 center, Vec3 normal, double radius
   return choice_of(light);
 }
 
-// Emission that arrives from a point of an emitter at distance d may be found by a cosine ray and by
-// a shadow ray; both together count it once, and neither makes large values where the emitter is
-// near: the balance heuristic (Veach and Guibas, SIGGRAPH '95). This is what a sample of either kind
-// is worth, as irradiance per emission.
+// Emission that arrives from a point of an emitter at distance d may be found by a cosine ray and
+// by a shadow ray; both together count it once, and neither makes large values where the emitter is
+// near: the balance heuristic (Veach and Guibas, SIGGRAPH '95). This is what a sample of either
+// kind is worth, as irradiance per emission.
 double RayGather::share(size_t emitter, double chance, double distance2, double at_x,
                         double at_y) const {
   const double cosine = at_x / pi;
@@ -150,8 +150,8 @@ void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], co
              : 0.0;
   for (int b = 0; b < bands; ++b) {
     const double emission = scene.emission[static_cast<size_t>(hit.patch) * bands + b];
-    value[b] += state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission +
-                emitted * emission;
+    value[b] +=
+        state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission + emitted * emission;
   }
 }
 
@@ -160,7 +160,8 @@ int RayGather::add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Ch
   const Scene& scene = *state_.forest.scene;
   const Forest& forest = state_.forest;
   const auto found = std::upper_bound(choice.cumulative.begin(), choice.cumulative.end(), light[0]);
-  const size_t e = std::min(static_cast<size_t>(found - choice.cumulative.begin()), emitters_.size() - 1);
+  const size_t e =
+      std::min(static_cast<size_t>(found - choice.cumulative.begin()), emitters_.size() - 1);
   const Surface& emitter = forest.surfaces[emitters_[e]];
   double su = light[1], sv = light[2];
   fold(su, sv);

@@ -30,9 +30,9 @@ class RayGather {
   // set of samples spread evenly. Any thread. Returns the number of rays traced.
   int64_t sample(Vec3 x, Vec3 n, uint64_t key, int rays, double* sum, double* squares) const;
 
-  // One sample of each kind: what it brings, bands values. hemisphere: the cosine ray's two coordinates
-  // in the unit square; light: the shadow ray's three, the first of which picks the emitter. Returns
-  // the number of rays traced.
+  // One sample of each kind: what it brings, bands values. hemisphere: the cosine ray's two
+  // coordinates in the unit square; light: the shadow ray's three, the first of which picks the
+  // emitter. Returns the number of rays traced.
   int64_t sample_once(Vec3 x, Vec3 n, const double hemisphere[2], const double light[3],
                       const Choice& choice, double* value) const;
 

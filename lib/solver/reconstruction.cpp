@@ -10,8 +10,8 @@ namespace hrad {
 namespace {
 
 // Sets the corners that hang within the edge from a to b to the edge's own values.
-void straighten(const CornerIndex& index, int32_t surface, LatticePoint a, LatticePoint b, int bands,
-                std::vector<float>& value) {
+void straighten(const CornerIndex& index, int32_t surface, LatticePoint a, LatticePoint b,
+                int bands, std::vector<float>& value) {
   if (((a.i + b.i) | (a.j + b.j)) & 1) return;
   const LatticePoint middle{(a.i + b.i) / 2, (a.j + b.j) / 2};
   const int32_t hanging = index.find(surface, middle);
@@ -45,7 +45,8 @@ double direct_light(const State& state, NodeId leaf, int corner, double* values)
   const int32_t number = direct.of_leaf[leaf][corner];
   for (int b = 0; b < state.bands; ++b) {
     const double mean = mean_of_corners(direct, leaf, b, state.bands);
-    values[b] = number >= 0 ? direct.irradiance[static_cast<size_t>(number) * state.bands + b] : mean;
+    values[b] =
+        number >= 0 ? direct.irradiance[static_cast<size_t>(number) * state.bands + b] : mean;
     // On from what is known half way.
     if (direct.half_way[leaf]) values[b] = std::max(0.0, std::min(2 * mean, 2 * values[b] - mean));
   }
@@ -82,7 +83,8 @@ LinearField::LinearField(const Forest& forest, int bands, const std::vector<Node
       value_[c * bands + b] =
           static_cast<float>(weight[c] > 0 ? sum[c * bands + b] / weight[c] : 0.0);
 
-  // From the longest edges to the shortest: the ends of an edge are settled before what hangs in it.
+  // From the longest edges to the shortest: the ends of an edge are settled before what hangs in
+  // it.
   std::vector<int32_t> order(elements.size());
   for (size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int32_t>(k);
   std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {

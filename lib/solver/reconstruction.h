@@ -45,8 +45,8 @@ class Reconstruction {
   // Irradiance at the three corners of a leaf, in the order of Forest::triangle: 3*bands values.
   void corners(NodeId leaf, double* out) const { field_.corners(leaf, out); }
 
-  // The numbers of its corners: leaves of one plane that meet at a corner have the same number there,
-  // and the same irradiance.
+  // The numbers of its corners: leaves of one plane that meet at a corner have the same number
+  // there, and the same irradiance.
   const std::array<int32_t, 3>& corner_numbers(NodeId leaf) const {
     return field_.corner_numbers(leaf);
   }

@@ -27,12 +27,12 @@ constexpr double power_share = 1.0 / 20000;
 constexpr double fall = 4;
 
 // Rows: what serves this accuracy. Cells shrink with the root of the accuracy and have rays in
-// proportion to its inverse, so that the rays over an area grow with its inverse square, and the noise
-// of a patch falls with it.
+// proportion to its inverse, so that the rays over an area grow with its inverse square, and the
+// noise of a patch falls with it.
 constexpr double row_accuracy = 0.02;
 constexpr double finest_of_rows = 0.004;
 constexpr int64_t most_of_fine_pairs = 200;
-constexpr double row_leg = 0.25;         // of the mean distance between surfaces
+constexpr double row_leg = 0.25;  // of the mean distance between surfaces
 constexpr double fewest_cells = 1000, cells_of_a_surface = 64, cells_of_a_scene = 2000;
 constexpr double row_variation = 0.03;
 constexpr double row_rays = 64, least_row_rays = 16, fewest_rays = 4;

@@ -10,8 +10,8 @@
 
 namespace hrad {
 
-// Refinement rounds before the first measurement. Fewer lose light: a source that is still dark when
-// its links are weighed is never refined for.
+// Refinement rounds before the first measurement. Fewer lose light: a source that is still dark
+// when its links are weighed is never refined for.
 constexpr int first_rounds = 5;
 
 // The oracle of round `round` (0: the Linking Stage). scale: 1, less after a measurement has shown

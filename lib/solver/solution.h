@@ -25,16 +25,16 @@ struct Solver::Solution {
 
   // How far the solve has come, so that it can stop anywhere and go on to the same bits.
   bool linked = false;
-  int rounds_done = 0;           // refinement rounds whose sweeps are done
-  int tightened = 0;             // times the thresholds were lowered after measuring
-  double scale = 1;              // of the thresholds, after that
-  bool sweeping = false;         // sweeps are under way
-  int sweeping_round = 0;        // those of this round, whose links are refined already
-  Convergence convergence{0};    // of these sweeps
-  bool converged = false;        // the last sweeps stood still
-  bool finished = false;         // measured
-  double accuracy_reached = 0;   // the accuracy that was asked for then
-  uint64_t light_hash = 0;       // of emission and reflectance at that time
+  int rounds_done = 0;          // refinement rounds whose sweeps are done
+  int tightened = 0;            // times the thresholds were lowered after measuring
+  double scale = 1;             // of the thresholds, after that
+  bool sweeping = false;        // sweeps are under way
+  int sweeping_round = 0;       // those of this round, whose links are refined already
+  Convergence convergence{0};   // of these sweeps
+  bool converged = false;       // the last sweeps stood still
+  bool finished = false;        // measured
+  double accuracy_reached = 0;  // the accuracy that was asked for then
+  uint64_t light_hash = 0;      // of emission and reflectance at that time
 
   // For queries, made when the solve is finished or stopped.
   void prepare_queries();

@@ -77,7 +77,7 @@ class Solver::Run {
     // More sweeps are allowed now than when they ran out.
     if (solution_.finished && !solution_.converged && !out_of_sweeps()) {
       solution_.finished = false;
-      if (!sweep(solution_.rounds_done)) return Status::stopped;
+      if (!sweep(by_rows_ ? first_rounds : solution_.rounds_done)) return Status::stopped;
     }
     for (;;) {
       while (solution_.rounds_done < rounds_wanted() && !out_of_sweeps())
@@ -100,19 +100,26 @@ class Solver::Run {
 
   void start_over_if_the_light_changed() {
     const uint64_t light = hash_of_light(solver_.scene_);
-    if (solution_.linked && light != solution_.light_hash) {
+    const bool changed = solution_.linked && light != solution_.light_hash;
+    const bool more_accurate = params_.accuracy < solution_.accuracy_reached;
+    solution_.light_hash = light;
+    solution_.accuracy_reached = params_.accuracy;
+    if (changed || more_accurate) solution_.finished = false;
+    if (changed) {
       reset_to_emission(state_);
       solution_.sweeping = false;
-      solution_.finished = false;
+    }
+    if (by_rows_) {
+      // The mesh follows the light: only refine=0 keeps it.
+      if ((changed || more_accurate) && params_.refine != 0) {
+        solution_.linked = solution_.sweeping = false;
+        solution_.tightened = 0;
+        solution_.scale = 1;
+      }
+    } else if (changed || more_accurate) {
       // The mesh stays; the last round looks at every link again under the new light.
       solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
     }
-    solution_.light_hash = light;
-    if (params_.accuracy < solution_.accuracy_reached) {
-      solution_.finished = false;
-      solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
-    }
-    solution_.accuracy_reached = params_.accuracy;
   }
 
   bool link() {
@@ -140,9 +147,9 @@ class Solver::Run {
     clock_.begin("linking", 0.02, 0.85);
     const StageTools stage = tools(first_rounds);
     measure_exposure(state_, stage);
-    return link_rows(state_, stage,
-                     rows_of(params_, state_.forest, solution_.inspection.mean_distance,
-                             solution_.scale));
+    return link_rows(
+        state_, stage,
+        rows_of(params_, state_.forest, solution_.inspection.mean_distance, solution_.scale));
   }
 
   bool round() {

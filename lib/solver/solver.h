@@ -81,12 +81,12 @@ class Solver {
   void query_sensors(int64_t count, const double* xyz, const double* normal, double* irradiance,
                      double* standard_error) const;
   int64_t leaf_count() const;
-  LeafView leaf(int64_t index) const;                    // in key order
+  LeafView leaf(int64_t index) const;                                     // in key order
   void leaf_values(int64_t index, Quantity quantity, double* out) const;  // means, bands values
   // Linear reconstruction of radiosity at the three corners of a leaf: 3*bands values.
   void leaf_corner_radiosity(int64_t index, double* out) const;
-  // Numbers that name these corners: leaves of one side of a patch that meet at a corner have the same
-  // number there, and the same radiosity unless one of them is sealed.
+  // Numbers that name these corners: leaves of one side of a patch that meet at a corner have the
+  // same number there, and the same radiosity unless one of them is sealed.
   std::array<int32_t, 3> leaf_corner_numbers(int64_t index) const;
   void power_balance(double* emitted, double* absorbed, double* absorbed_back,
                      double* escaped) const;
@@ -108,7 +108,8 @@ class Solver {
   mutable Stats stats_;
   std::atomic<bool> stop_requested_{false};
   std::unique_ptr<Solution> solution_;  // from partition() on
-  bool begun_ = false;  // solve() was entered with a valid scene: result parameters hold from then on
+  bool begun_ =
+      false;  // solve() was entered with a valid scene: result parameters hold from then on
 };
 
 }  // namespace hrad

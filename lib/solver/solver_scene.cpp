@@ -270,8 +270,7 @@ void Solver::set_reflectance(int64_t first, int64_t count, const double* values)
 
 std::vector<std::string> Solver::diagnostics() const {
   std::vector<std::string> all = scene_.diagnostics;
-  if (scene_.patch_count() > 0 && !emits(scene_))
-    all.push_back(no_emitter);
+  if (scene_.patch_count() > 0 && !emits(scene_)) all.push_back(no_emitter);
   if (!solution_) return all;
   const Inspection& inspection = solution_->inspection;
   const Stats known = stats();
@@ -287,8 +286,8 @@ std::vector<std::string> Solver::diagnostics() const {
     all.push_back(format(
         "%lld patches are smaller than what can be told apart in a scene of this size, %g %s "
         "(first: patch %lld): is there something far away that doesn't belong to it?",
-        static_cast<long long>(inspection.unresolved), inspection.smallest,
-        params_.unit.c_str(), static_cast<long long>(inspection.first_unresolved)));
+        static_cast<long long>(inspection.unresolved), inspection.smallest, params_.unit.c_str(),
+        static_cast<long long>(inspection.first_unresolved)));
   if (known.sealed_area > 0)
     all.push_back(
         format("%g of %g %s^2 of surface are sealed: pressed against another surface or "

@@ -82,15 +82,13 @@ bool CornerSampler::sample() {
           if (!tools_.exposure.can_be_sealed(surface.patch, surface.side) ||
               !tools_.exposure.sealed(surface.patch, surface.side, points[k].place)) {
             const size_t before = r.links.size();
-            r.rays += light_.sample(points[k],
-                                    mix(key_of_corner(surface.patch * 2 + surface.side,
-                                                      corner.point),
-                                        seed_),
-                                    r.links);
+            r.rays += light_.sample(
+                points[k],
+                mix(key_of_corner(surface.patch * 2 + surface.side, corner.point), seed_), r.links);
             value = 0;
             for (size_t l = before; l < r.links.size(); ++l)
-              value += static_cast<double>(r.links[l].weight) *
-                       brightness_.of_node[r.links[l].source];
+              value +=
+                  static_cast<double>(r.links[l].weight) * brightness_.of_node[r.links[l].source];
           }
           r.value.push_back(value);
           r.end.push_back(r.links.size());

@@ -1,5 +1,5 @@
-// Direct light at the corners of elements: which corners are asked for, their numbers, and their light
-// once it has been sampled, all new ones of a step at once. Floor 7 (stages).
+// Direct light at the corners of elements: which corners are asked for, their numbers, and their
+// light once it has been sampled, all new ones of a step at once. Floor 7 (stages).
 #pragma once
 
 #include <cstdint>

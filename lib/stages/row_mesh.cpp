@@ -97,8 +97,8 @@ void RowMesh::make_cells() {
 }
 
 // Patches no larger than a cell: three points half way to the middle have the mean of every
-// quadratic field, while corners lie in creases and contacts. Where these agree the patch is left as
-// it is, and taken out of `open`.
+// quadratic field, while corners lie in creases and contacts. Where these agree the patch is left
+// as it is, and taken out of `open`.
 bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
   for (NodeId id : open)
     if (forest_.nodes[id].level == 0) want_half_way(id);
@@ -178,8 +178,7 @@ bool RowMesh::may_divide(NodeId id) const {
   LatticePoint corner[3];
   lattice_corners(node, corner);
   double largest = 1;
-  for (const LatticePoint& c : corner)
-    largest = std::max(largest, corners_.value(node.surface, c));
+  for (const LatticePoint& c : corner) largest = std::max(largest, corners_.value(node.surface, c));
   return weighed(largest, area) > 1;
 }
 

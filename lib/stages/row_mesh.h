@@ -14,9 +14,8 @@ namespace hrad {
 class RowMesh {
  public:
   // State, light, grid and memory must outlive this.
-  RowMesh(State& state, StageTools tools, const RowSettings& settings,
-          const DirectLight& light, LightGrid& grid, const Brightness& brightness,
-          StageMemory& memory);
+  RowMesh(State& state, StageTools tools, const RowSettings& settings, const DirectLight& light,
+          LightGrid& grid, const Brightness& brightness, StageMemory& memory);
 
   // Cells of even size, and direct light on a mesh as fine as it needs. False: stopped.
   bool build();

@@ -43,15 +43,14 @@ class RowTracer {
             const Emitters& emitters)
       : state_(state), tools_(tools), settings_(settings), emitters_(emitters) {}
 
-  // The links of one element, sorted by source.
-  void trace(NodeId id, std::vector<Link>& links) {
+  // The links of one element, sorted by source, from so many rays.
+  void trace(NodeId id, int wanted, std::vector<Link>& links) {
     const Forest& forest = state_.forest;
     const Node& node = forest.nodes[id];
     const Surface& surface = forest.surfaces[node.surface];
     const Triangle corners = forest.triangle(node);
     const Frame frame(surface.normal);
     const uint64_t key = mix(key_of(forest, node), settings_.seed, 0x726f77u);
-    const int wanted = rays_wanted(forest.area(node));
     // Points on a sealed part see nothing: the row is that of the exposed part.
     const int most = node.exposed < 1 ? 64 * wanted : wanted;
     hits_.clear();
@@ -77,11 +76,11 @@ class RowTracer {
         worth -= direct_share(state_, emitters_, emitter, forest.leaf_at(node.surface, u, v), u, v);
         if (!(worth > 0)) continue;
       }
-      const NodeId leaf = hit.back ? forest.leaf_at(source, hit.v, hit.u)
-                                   : forest.leaf_at(source, hit.u, hit.v);
+      const NodeId leaf =
+          hit.back ? forest.leaf_at(source, hit.v, hit.u) : forest.leaf_at(source, hit.u, hit.v);
       if (forest.nodes[leaf].exposed < 1 &&
-          tools_.exposure.under_a_back(
-              hit.patch, hit.back, forest.scene->triangle(hit.patch).at(hit.u, hit.v)))
+          tools_.exposure.under_a_back(hit.patch, hit.back,
+                                       forest.scene->triangle(hit.patch).at(hit.u, hit.v)))
         continue;
       hits_.push_back({leaf, static_cast<float>(worth)});
     }
@@ -99,12 +98,6 @@ class RowTracer {
   int64_t rays = 0;
 
  private:
-  int rays_wanted(double area) const {
-    const double wanted =
-        settings_.rays_of_cell * std::sqrt(std::min(1.0, area / settings_.cell_area));
-    return std::max(settings_.least_rays, static_cast<int>(std::ceil(wanted)));
-  }
-
   // From (x,y) within an element to (u,v) of its root.
   static void root_coordinates(const Node& node, double x, double y, double* u, double* v) {
     if (node.inverted) {
@@ -127,7 +120,7 @@ class RowTracer {
 
 bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
                 const Emitters& emitters, const std::vector<NodeId>& cells,
-                StageMemory& memory) {
+                const std::vector<int>& rays_of_cell, StageMemory& memory) {
   const Forest& forest = state.forest;
   const int64_t count = static_cast<int64_t>(cells.size());
   const int64_t tasks = (count + rows_of_a_task - 1) / rows_of_a_task;
@@ -141,7 +134,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
         for (int64_t k = task * rows_of_a_task; k < std::min(count, (task + 1) * rows_of_a_task);
              ++k) {
           links.clear();
-          if (forest.nodes[cells[k]].exposed > 0) tracer.trace(cells[k], links);
+          if (forest.nodes[cells[k]].exposed > 0) tracer.trace(cells[k], rays_of_cell[k], links);
           state.links[cells[k]].assign({links.data(), links.size()});
           bytes += static_cast<int64_t>(links.size() * sizeof(Link));
         }

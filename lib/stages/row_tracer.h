@@ -1,5 +1,5 @@
-// Rows of rays: an element's hemisphere, sampled by rays that are form factor and visibility at once,
-// so that the weights of a closed scene sum to one (design: `rows`). Floor 7 (stages).
+// Rows of rays: an element's hemisphere, sampled by rays that are form factor and visibility at
+// once, so that the weights of a closed scene sum to one (design: `rows`). Floor 7 (stages).
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace hrad {
 
-// Gives these cells their rows, state.links[cell]: cosine-distributed rays from the exposed part, spread
-// evenly over it and its hemisphere. Each is a link to the leaf that it meets, of weight 1/rays but
-// for what the corners have of that leaf as a bright emitter; one that meets nothing, a blocker or a
-// black back is none. False: stopped.
+// Gives these cells their rows of so many rays each, state.links[cell]: cosine-distributed rays
+// from the exposed part, spread evenly over it and its hemisphere. Each is a link to the leaf that
+// it meets, of weight 1/rays but for what the corners have of that leaf as a bright emitter; one
+// that meets nothing, a blocker or a black back is none. False: stopped.
 bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
                 const Emitters& emitters, const std::vector<NodeId>& cells,
-                StageMemory& memory);
+                const std::vector<int>& rays_of_cell, StageMemory& memory);
 
 }  // namespace hrad

@@ -1,6 +1,9 @@
 // The order of the steps: mesh by direct light, cells by pilot rows, final rows. Floor 7 (stages).
 #include "stages/rows.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/hash.h"
 #include "stages/gather.h"
 #include "stages/row_mesh.h"
@@ -15,6 +18,10 @@ constexpr int pilot_rounds = 4;
 constexpr int pilot_share = 2;
 // Bounces after which it is known well enough where that is.
 constexpr int pilot_sweeps = 6;
+
+// Deviation of what a ray brings, in units of the mean irradiance, for which the ordinary number of
+// rays is meant, and how many times that there may be.
+constexpr double ordinary_deviation = 0.15, most_more_rays = 32;
 
 // The part of the whole from `from` to `to`.
 StageTools part_of(const StageTools& tools, double from, double to) {
@@ -32,6 +39,54 @@ Brightness light_of_pilot_rows(State& state, ThreadTeam& team) {
     push_pull(state, team);
   }
   return measure_brightness(state, team);
+}
+
+int rays_of(const RowSettings& settings, double area) {
+  return std::max(settings.least_rays,
+                  static_cast<int>(std::ceil(settings.rays_of_cell *
+                                             std::sqrt(std::min(1.0, area / settings.cell_area)))));
+}
+
+std::vector<int> rays_by_area(const State& state, const RowSettings& settings,
+                              const std::vector<NodeId>& cells) {
+  std::vector<int> rays;
+  for (NodeId cell : cells)
+    rays.push_back(rays_of(settings, state.forest.area(state.forest.nodes[cell])));
+  return rays;
+}
+
+// Variance of what one ray of a row brings.
+double variance_of(const LinkRun& row, const Brightness& light) {
+  double mean = 0, square = 0;
+  for (const Link& link : row.links()) {
+    const double weight = link.weight, brightness = light.of_node[link.source];
+    mean += weight * brightness;
+    square += weight * brightness * brightness;
+  }
+  return std::max(0.0, square - mean * mean);
+}
+
+// More rays for the cells that see bright spots, in proportion to the deviation of single rays.
+// What the few pilot rays of a cell missed those of the others on its surface may have met.
+std::vector<int> rays_by_variance(const State& state, const RowSettings& settings,
+                                  const Brightness& light) {
+  const Forest& forest = state.forest;
+  std::vector<double> own, sum(static_cast<size_t>(forest.surface_count()), 0.0), area = sum;
+  for (NodeId cell : state.cells) {
+    const Node& node = forest.nodes[cell];
+    own.push_back(variance_of(state.links[cell], light));
+    sum[node.surface] += forest.area(node) * own.back();
+    area[node.surface] += forest.area(node);
+  }
+  std::vector<int> rays;
+  for (size_t k = 0; k < own.size(); ++k) {
+    const Node& node = forest.nodes[state.cells[k]];
+    const double mean = sum[node.surface] / area[node.surface];
+    const double share = std::sqrt((own[k] + mean) / 2) / ordinary_deviation;
+    rays.push_back(static_cast<int>(rays_of(settings, forest.area(node)) *
+                                    std::max(1.0, std::min(most_more_rays, share))));
+  }
+  return rays;
 }
 
 }  // namespace
@@ -52,15 +107,19 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   pilot.rays_of_cell = settings.rays_of_cell / pilot_share;
   pilot.seed = mix(settings.seed, 0x70696c6f74u);
   std::vector<NodeId> cells = state.cells;
-  for (int round = 0; round < pilot_rounds && !cells.empty(); ++round) {
+  std::vector<int> rays;
+  for (int round = 0; !cells.empty(); ++round) {
     const double from = 0.3 + 0.3 * round / pilot_rounds;
     if (!trace_rows(state, part_of(tools, from, from + 0.3 / pilot_rounds), pilot, emitters, cells,
-                    memory))
+                    rays_by_area(state, pilot, cells), memory))
       return false;
-    if (!mesh.divide_cells(light_of_pilot_rows(state, tools.team), cells)) return false;
+    const Brightness light = light_of_pilot_rows(state, tools.team);
+    rays = rays_by_variance(state, settings, light);
+    if (round + 1 == pilot_rounds) break;
+    if (!mesh.divide_cells(light, cells)) return false;
     pull_exposure(state.forest);
   }
-  if (!trace_rows(state, part_of(tools, 0.6, 1), settings, emitters, state.cells, memory))
+  if (!trace_rows(state, part_of(tools, 0.6, 1), settings, emitters, state.cells, rays, memory))
     return false;
   reset_to_emission(state);
   memory.settle();

@@ -1,6 +1,6 @@
-// The Linking Stage by rows (design: `rows`): light straight from bright emitters on an adaptive mesh
-// of its own, everything else by rays from cells that are fine where reflected light varies. There is
-// nothing to refine afterwards. Floor 7 (stages).
+// The Linking Stage by rows (design: `rows`): light straight from bright emitters on an adaptive
+// mesh of its own, everything else by rays from cells that are fine where reflected light varies.
+// There is nothing to refine afterwards. Floor 7 (stages).
 #pragma once
 
 #include "stages/state.h"
@@ -10,18 +10,18 @@ namespace hrad {
 struct RowSettings {
   // Of the elements that own rows: at the most, and at the least.
   double cell_area = 1, least_cell_area = 0;
-  // Estimated variation of reflected light over a cell that isn't divided, weighted with the root of
-  // its area over cell_area; as all that follows in units of the scene's mean irradiance.
+  // Estimated variation of reflected light over a cell that isn't divided, weighted with the root
+  // of its area over cell_area; as all that follows in units of the scene's mean irradiance.
   double cell_variation = 0.03;
   // Of a cell of cell_area; smaller ones have fewer, by the root of the area.
   int rays_of_cell = 64;
   int least_rays = 16;
   // Deviation of direct light from linear that is tolerated between corners, weighted likewise.
   double tolerance = 0.1;
-  double min_area = 0;        // of elements
-  double least_bright = 0.01; // Emitters'
-  double shadow_noise = 0.1;  // DirectLight's
-  double grid_size = 1;       // LightGrid's
+  double min_area = 0;         // of elements
+  double least_bright = 0.01;  // Emitters'
+  double shadow_noise = 0.1;   // DirectLight's
+  double grid_size = 1;        // LightGrid's
   uint64_t seed = 1;
 };
 

@@ -21,8 +21,8 @@ namespace hrad {
 // Light straight from bright emitters (linking=rows), known at the corners of the leaves and linear
 // between them. No corner is shared by two surfaces.
 struct CornerLight {
-  // Per node the numbers of its corners in the order of Forest::triangle; -1: a corner without light
-  // of its own, sealed, or a node that is no leaf. Empty in other linking methods.
+  // Per node the numbers of its corners in the order of Forest::triangle; -1: a corner without
+  // light of its own, sealed, or a node that is no leaf. Empty in other linking methods.
   std::vector<std::array<int32_t, 3>> of_leaf;
   // Per node 1: these lie not at the corners but half way to the middle.
   std::vector<uint8_t> half_way;
@@ -49,8 +49,8 @@ struct State {
 
   Forest forest;
   int bands;
-  LinkTable links;                // per receiver
-  std::vector<NodeId> cells;      // linking=rows: the elements that own rows, all surfaces covered
+  LinkTable links;            // per receiver
+  std::vector<NodeId> cells;  // linking=rows: the elements that own rows, all surfaces covered
   CornerLight direct;
   std::vector<float> radiosity;   // per node and band: mean over the exposed part
   std::vector<float> irradiance;  // likewise
@@ -72,8 +72,8 @@ struct StageTools {
 // How strongly each node shines, as one number: the largest band, each in units of the scene's own
 // mean irradiance. What the oracle weighs links by.
 struct Brightness {
-  std::vector<double> unit;      // per band: 1 / root mean square irradiance; 0 for a dark band
-  std::vector<float> of_node;    // per node
+  std::vector<double> unit;    // per band: 1 / root mean square irradiance; 0 for a dark band
+  std::vector<float> of_node;  // per node
 };
 
 }  // namespace hrad

@@ -4,16 +4,17 @@
 namespace hrad {
 
 int64_t bytes_of(const State& state) {
-  size_t bytes = state.forest.nodes.capacity() * sizeof(Node) +
-                 state.links.capacity() * sizeof(LinkRun) +
-                 (state.radiosity.capacity() + state.irradiance.capacity() +
-                  state.gathered.capacity()) *
-                     sizeof(float);
+  size_t bytes =
+      state.forest.nodes.capacity() * sizeof(Node) + state.links.capacity() * sizeof(LinkRun) +
+      (state.radiosity.capacity() + state.irradiance.capacity() + state.gathered.capacity()) *
+          sizeof(float);
   for (const LinkRun& run : state.links) bytes += static_cast<size_t>(run.count()) * sizeof(Link);
   const CornerLight& direct = state.direct;
-  bytes += state.cells.capacity() * sizeof(NodeId) + direct.half_way.capacity() + direct.of_leaf.capacity() * sizeof direct.of_leaf[0] +
-           direct.first.capacity() * sizeof direct.first[0] + direct.links.capacity() * sizeof(Link) +
-           direct.place.capacity() * sizeof(Vec3) + direct.irradiance.capacity() * sizeof(float);
+  bytes += state.cells.capacity() * sizeof(NodeId) + direct.half_way.capacity() +
+           direct.of_leaf.capacity() * sizeof direct.of_leaf[0] +
+           direct.first.capacity() * sizeof direct.first[0] +
+           direct.links.capacity() * sizeof(Link) + direct.place.capacity() * sizeof(Vec3) +
+           direct.irradiance.capacity() * sizeof(float);
   return static_cast<int64_t>(bytes);
 }
 

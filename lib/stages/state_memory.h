@@ -27,8 +27,8 @@ class StageMemory {
     taken_ += bytes;
   }
 
-  // The solution as it is now stays counted, whatever was taken for the time being is not: of a stage,
-  // or a step of one, that was carried to its end.
+  // The solution as it is now stays counted, whatever was taken for the time being is not: of a
+  // stage, or a step of one, that was carried to its end.
   void settle() {
     const int64_t now = bytes_of(state_);
     take(now - before_ - taken_.load(), "links and elements");

@@ -66,7 +66,7 @@ class EmbreeEngine final : public VisibilityEngine {
   // Per patch the one with the same corners that faces the other way, -1: none. Embree may report
   // either side of such a sheet.
   std::vector<int32_t> other_side_;
-  int64_t bytes_ = 0;             // changed while building alone, by one thread
+  int64_t bytes_ = 0;  // changed while building alone, by one thread
 };
 
 EmbreeEngine::EmbreeEngine(const Scene& scene) : scene_(scene) {

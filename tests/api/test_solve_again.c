@@ -268,6 +268,39 @@ static void reflectance_may_change(void** state) {
   hrad_destroy(&solver);
 }
 
+/* With refinement the mesh follows a new light: a patch of the floor shines instead of the lamp. */
+static void mesh_follows_the_emission(void** state) {
+  (void)state;
+  for (int refine = 0; refine <= 1; ++refine) {
+    hrad_solver *changed = prepared("furnished-room", 0.1, 2),
+                *fresh = prepared("furnished-room", 0.1, 1);
+    const int64_t patches = patch_count(changed);
+    double* e = calloc((size_t)patches * BANDS, sizeof *e);
+    double emitted = 0, absorbed = 0, back = 0, escaped = 0, totals[4][BANDS];
+    for (int b = 0; b < BANDS; ++b) e[b] = 10;
+    assert_ok(hrad_solve(changed));
+    assert_ok(hrad_set_emission(changed, 0, patches, e));
+    assert_ok(hrad_set_emission(fresh, 0, patches, e));
+    assert_ok(hrad_set_int(changed, "refine", refine));
+    assert_true(hrad_solve(changed) >= 0);
+    assert_ok(hrad_power_balance(changed, totals[0], totals[1], totals[2], totals[3]));
+    for (int b = 0; b < BANDS; ++b) {
+      emitted += totals[0][b];
+      absorbed += totals[1][b];
+      back += totals[2][b];
+      escaped += totals[3][b];
+    }
+    assert_true(emitted > 0);
+    assert_near(absorbed + back + escaped, emitted, 0.1 * emitted);
+    assert_ok(hrad_solve(fresh));
+    /* refine is a result parameter, and the present links know no mesh for the new light. */
+    assert_int_equal(hash_of(changed) == hash_of(fresh), refine);
+    hrad_destroy(&changed);
+    hrad_destroy(&fresh);
+    free(e);
+  }
+}
+
 static void result_parameters_hold_once_begun(void** state) {
   hrad_solver* solver = prepared("cornell", 0.2, 1);
   double accuracy = -1;
@@ -334,6 +367,7 @@ int main(void) {
       cmocka_unit_test(solvers_work_side_by_side),
       cmocka_unit_test(emission_may_change),
       cmocka_unit_test(reflectance_may_change),
+      cmocka_unit_test(mesh_follows_the_emission),
       cmocka_unit_test(result_parameters_hold_once_begun),
       cmocka_unit_test(smaller_accuracy_goes_on),
       cmocka_unit_test(few_iterations_do_not_converge),

@@ -41,8 +41,8 @@ void pairs_of_dimensions_are_a_net() {
     }
 }
 
-// A function of all four coordinates: its mean over keys is the integral for any number of points, and
-// the spread of 64 points' means is far below that of chance.
+// A function of all four coordinates: its mean over keys is the integral for any number of points,
+// and the spread of 64 points' means is far below that of chance.
 void means_are_unbiased_and_steady() {
   const auto f = [](const double p[4]) { return p[0] * p[1] + p[1] * p[2] * p[2] + p[3] * p[0]; };
   const double exact = 0.25 + 1.0 / 6 + 0.25;

@@ -65,8 +65,8 @@ void unoccluded_light_is_lamberts() {
     Lit lit(floor_and_lamp(side));
     CHECK_EQUAL(lit.emitters.all().size(), size_t{1});
     for (const Vec3& x : {Vec3{0.1, 0.2, 0}, Vec3{1, -0.7, 0}, Vec3{4.9, 4.8, 0}}) {
-      const double wanted =
-          side < 1e-3 ? side * side / pi / std::pow(dot(x, x) + 1, 2) : exact(lit.bench.scene, x, up);
+      const double wanted = side < 1e-3 ? side * side / pi / std::pow(dot(x, x) + 1, 2)
+                                        : exact(lit.bench.scene, x, up);
       CHECK_NEAR(lit.at(x, up), wanted, 2e-3 * wanted);
     }
   }

@@ -13,7 +13,8 @@ struct Case {
   const char* linking;
   double accuracy;
 };
-constexpr Case kCases[] = {{"rows", 0.05}, {"rows", 0.02}, {"rows", 0.01}, {"pairs", 0.05}, {"pairs", 0.02}};
+constexpr Case kCases[] = {
+    {"rows", 0.05}, {"rows", 0.02}, {"rows", 0.01}, {"pairs", 0.05}, {"pairs", 0.02}};
 
 void accuracy_is_kept() {
   ApiSolver loaded;
@@ -32,9 +33,11 @@ void accuracy_is_kept() {
     const Comparison at_points = points.compare(solver, reference);
     const hrad_stats stats = solver.stats();
     std::printf(
-        "furnished-room by %s at %g: %lld leaves, %lld links, %.2f s; own estimate %.3f %% +- %.3f\n",
-        c.linking, accuracy, static_cast<long long>(stats.leaves), static_cast<long long>(stats.links),
-        stats.cpu_seconds, 100 * stats.error_estimate, 100 * stats.error_standard_error);
+        "furnished-room by %s at %g: %lld leaves, %lld links, %.2f s; own estimate %.3f %% +- "
+        "%.3f\n",
+        c.linking, accuracy, static_cast<long long>(stats.leaves),
+        static_cast<long long>(stats.links), stats.cpu_seconds, 100 * stats.error_estimate,
+        100 * stats.error_standard_error);
     at_patches.print("  patch means");
     at_points.print("  points");
     // The reference is good enough to tell.

@@ -90,8 +90,8 @@ inline void check_same_bits(const Case& c, const std::vector<Surroundings>& all)
     if (!same)
       failed(__FILE__, __LINE__,
              hrad::format("%s by %s, oracle=%s: %d threads with %s give other bits than %d with %s",
-                          c.scene, c.linking, c.oracle, in.threads, in.instruction_set, all[0].threads,
-                          all[0].instruction_set));
+                          c.scene, c.linking, c.oracle, in.threads, in.instruction_set,
+                          all[0].threads, all[0].instruction_set));
   }
   CHECK(any);
 }

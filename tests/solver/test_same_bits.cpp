@@ -23,7 +23,9 @@ void furnished_room() {
 void furnished_room_by_energy() {
   check_same_bits({"furnished-room", "pairs", "energy", 0.5}, {{1, "auto"}, {7, "sse2"}});
 }
-void furnace_boxes() { check_same_bits({"furnace-boxes", "pairs", "error", 0.2}, all_surroundings); }
+void furnace_boxes() {
+  check_same_bits({"furnace-boxes", "pairs", "error", 0.2}, all_surroundings);
+}
 void furnace_boxes_by_energy() {
   check_same_bits({"furnace-boxes", "pairs", "energy", 0.5}, {{3, "auto"}, {1, "avx2"}});
 }
@@ -61,12 +63,18 @@ void result_parameters_change_the_hash() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(cornell),           HRAD_TEST(cornell_by_energy),
-      HRAD_TEST(furnished_room),    HRAD_TEST(furnished_room_by_energy),
-      HRAD_TEST(furnace_boxes),     HRAD_TEST(furnace_boxes_by_energy),
-      HRAD_TEST(cornell_by_rows),   HRAD_TEST(furnished_room_by_rows),
-      HRAD_TEST(furnace_boxes_by_rows), HRAD_TEST(a_missed_accuracy_by_rows),
-      HRAD_TEST(twice_is_the_same), HRAD_TEST(result_parameters_change_the_hash),
+      HRAD_TEST(cornell),
+      HRAD_TEST(cornell_by_energy),
+      HRAD_TEST(furnished_room),
+      HRAD_TEST(furnished_room_by_energy),
+      HRAD_TEST(furnace_boxes),
+      HRAD_TEST(furnace_boxes_by_energy),
+      HRAD_TEST(cornell_by_rows),
+      HRAD_TEST(furnished_room_by_rows),
+      HRAD_TEST(furnace_boxes_by_rows),
+      HRAD_TEST(a_missed_accuracy_by_rows),
+      HRAD_TEST(twice_is_the_same),
+      HRAD_TEST(result_parameters_change_the_hash),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

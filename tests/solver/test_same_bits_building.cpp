@@ -6,7 +6,9 @@ namespace {
 
 using namespace hrad_test;
 
-void building() { check_same_bits({"building", "pairs", "error", 0.5}, {{1, "auto"}, {7, "avx2"}}); }
+void building() {
+  check_same_bits({"building", "pairs", "error", 0.5}, {{1, "auto"}, {7, "avx2"}});
+}
 void building_by_rows() {
   check_same_bits({"building", "rows", "error", 0.05},
                   {{1, "auto"}, {2, "sse2"}, {3, "avx2"}, {4, "avx512"}, {7, "auto"}});
@@ -23,8 +25,9 @@ void building_by_energy() {
 int main() {
   const CMUnitTest tests[] = {
       HRAD_TEST(building),
-      HRAD_TEST(building_by_energy), HRAD_TEST(building_by_rows),
-                              HRAD_TEST(classroom_by_rows),
+      HRAD_TEST(building_by_energy),
+      HRAD_TEST(building_by_rows),
+      HRAD_TEST(classroom_by_rows),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

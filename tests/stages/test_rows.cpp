@@ -190,12 +190,9 @@ void a_stop_is_heeded() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(rows_of_a_closed_scene_sum_to_one),
-      HRAD_TEST(light_of_a_lamp_is_counted_once),
-      HRAD_TEST(cells_cover_all_surfaces),
-      HRAD_TEST(the_mesh_follows_the_shadow),
-      HRAD_TEST(seeds_differ_by_noise_alone),
-      HRAD_TEST(a_stop_is_heeded),
+      HRAD_TEST(rows_of_a_closed_scene_sum_to_one), HRAD_TEST(light_of_a_lamp_is_counted_once),
+      HRAD_TEST(cells_cover_all_surfaces),          HRAD_TEST(the_mesh_follows_the_shadow),
+      HRAD_TEST(seeds_differ_by_noise_alone),       HRAD_TEST(a_stop_is_heeded),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
