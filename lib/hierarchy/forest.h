@@ -24,10 +24,10 @@ struct Surface {
   double area = 0;
 };
 
-// An element. Its place in the patch is a triangle of the lattice that L subdivisions draw: with the
-// point of coordinates (i,j) at u = i/2^L, v = j/2^L, an upright one has the corners (i,j), (i+1,j),
-// (i,j+1), an inverted one (i+1,j+1), (i,j+1), (i+1,j). So a node needs no corners of its own, and
-// neighbours share exactly the same ones.
+// An element. Its place in the patch is a triangle of the lattice that L subdivisions draw: with
+// the point of coordinates (i,j) at u = i/2^L, v = j/2^L, an upright one has the corners (i,j),
+// (i+1,j), (i,j+1), an inverted one (i+1,j+1), (i,j+1), (i+1,j). So a node needs no corners of its
+// own, and neighbours share exactly the same ones.
 struct Node {
   NodeId parent = -1;
   NodeId first_child = -1;  // the four children stand side by side; -1: a leaf
@@ -35,7 +35,8 @@ struct Node {
   uint16_t i = 0, j = 0;
   uint8_t level = 0;
   uint8_t inverted = 0;
-  uint16_t reserved = 0;
+  uint8_t half_way = 0;  // its corners' direct light is known half way to its middle
+  uint8_t reserved = 0;
   float exposed = 1;  // share of the area that is not sealed (design: the exposure rule)
   float spread = 0;   // largest deviation of a leaf's radiosity from the node's, relative units
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/corner_index.h"
+#include "stages/gather.h"
 
 namespace hrad {
 namespace {
@@ -28,27 +29,30 @@ constexpr int most_bands = 16;
 
 // Irradiance that arrives evenly over a cell or leaf; the mean of a small one says more about its
 // corner than that of a large one, whose middle is farther away.
-double even_light(const State& state, NodeId id, double* values) {
+double even_light(const State& state, const std::vector<float>& at_corners, NodeId id,
+                  double* values) {
   const Node& node = state.forest.nodes[id];
   const bool by_rows = !state.cells.empty();
   for (int b = 0; b < state.bands; ++b) {
     const size_t at = static_cast<size_t>(id) * state.bands + b;
-    values[b] = by_rows ? state.gathered[at] - mean_of_corners(state.direct, id, b, state.bands)
-                        : state.irradiance[at];
+    values[b] =
+        by_rows ? state.gathered[at] - mean_of_corners(state.direct, at_corners, id, b, state.bands)
+                : state.irradiance[at];
   }
   return node.exposed / std::sqrt(state.forest.area(node));
 }
 
 // Irradiance at a corner. A sealed one has none of its own and takes what the others have.
-double direct_light(const State& state, NodeId leaf, int corner, double* values) {
+double direct_light(const State& state, const std::vector<float>& at_corners, NodeId leaf,
+                    int corner, double* values) {
   const CornerLight& direct = state.direct;
   const int32_t number = direct.of_leaf[leaf][corner];
   for (int b = 0; b < state.bands; ++b) {
-    const double mean = mean_of_corners(direct, leaf, b, state.bands);
-    values[b] =
-        number >= 0 ? direct.irradiance[static_cast<size_t>(number) * state.bands + b] : mean;
+    const double mean = mean_of_corners(direct, at_corners, leaf, b, state.bands);
+    values[b] = number >= 0 ? at_corners[static_cast<size_t>(number) * state.bands + b] : mean;
     // On from what is known half way.
-    if (direct.half_way[leaf]) values[b] = std::max(0.0, std::min(2 * mean, 2 * values[b] - mean));
+    if (state.forest.nodes[leaf].half_way)
+      values[b] = std::max(0.0, std::min(2 * mean, 2 * values[b] - mean));
   }
   return number >= 0 ? 1 : state.forest.nodes[leaf].exposed > 0 ? 1e-6 : 1e-12;
 }
@@ -127,11 +131,17 @@ namespace {
 // the leaves.
 LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
   const Forest& forest = state.forest;
-  const auto even = [&](NodeId id, int, double* values) { return even_light(state, id, values); };
+  const size_t bands = static_cast<size_t>(state.bands);
+  std::vector<float> at_corners(state.direct.corner_count() * bands);
+  for (size_t k = 0; k < state.direct.corner_count(); ++k)
+    gather_corner(state, k, &at_corners[k * bands]);
+  const auto even = [&](NodeId id, int, double* values) {
+    return even_light(state, at_corners, id, values);
+  };
   if (state.cells.empty()) return LinearField(forest, state.bands, leaves, even);
   const LinearField on_cells(forest, state.bands, state.cells, even);
   return LinearField(forest, state.bands, leaves, [&](NodeId leaf, int c, double* values) {
-    const double weight = direct_light(state, leaf, c, values);
+    const double weight = direct_light(state, at_corners, leaf, c, values);
     NodeId cell = leaf;
     while (!on_cells.has(cell)) cell = forest.nodes[cell].parent;
     LatticePoint corner[3];

@@ -38,6 +38,7 @@ constexpr double row_variation = 0.03;
 constexpr double row_rays = 64, least_row_rays = 16, fewest_rays = 4;
 constexpr double direct_tolerance = 0.1, largest_tolerance = 0.2;
 constexpr double least_bright = 0.05;
+constexpr double least_cube = 1e-4;  // of the root of all area: cubes have names of limited length
 constexpr double least_cell_share = 1.0 / 256, least_element_share = 1.0 / (1 << 20);
 
 }  // namespace
@@ -108,7 +109,7 @@ RowSettings rows_of(const Params& params, const Forest& forest, double distance,
   s.tolerance = std::min(direct_tolerance * ratio, largest_tolerance);
   s.shadow_noise = s.tolerance / 2;
   s.least_bright = least_bright;
-  s.grid_size = distance / 2;
+  s.grid_size = std::max(distance / 2, least_cube * std::sqrt(area));
   s.min_area = params.min_area > 0 ? params.min_area : s.cell_area * least_element_share;
   s.seed = static_cast<uint64_t>(params.seed);
   return s;

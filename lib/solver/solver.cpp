@@ -88,6 +88,9 @@ Stats Solver::stats() const {
   s.link_bytes = s.links * static_cast<int64_t>(sizeof(Link));
   s.node_bytes = s.elements * static_cast<int64_t>(sizeof(Node) + sizeof(LinkRun) +
                                                    3 * sizeof(float) * state.bands);
+  const CornerLight& direct = state.direct;
+  s.node_bytes += static_cast<int64_t>(direct.of_leaf.size() * sizeof direct.of_leaf[0] +
+                                       direct.first.size() * sizeof direct.first[0]);
   s.area = s.sealed_area = 0;
   for (size_t k = 0; k < state.forest.surfaces.size(); ++k) {
     s.area += state.forest.surfaces[k].area;
@@ -128,7 +131,7 @@ uint64_t Solver::state_hash() const {
   const CornerLight& direct = state.direct;
   for (const auto& corners : direct.of_leaf)
     for (int32_t corner : corners) hash.add(static_cast<uint64_t>(corner + 1));
-  for (int64_t first : direct.first) hash.add(static_cast<uint64_t>(first));
+  for (uint32_t first : direct.first) hash.add(static_cast<uint64_t>(first));
   for (const Link& link : direct.links) {
     hash.add(static_cast<uint64_t>(link.source));
     hash.add(link.weight);

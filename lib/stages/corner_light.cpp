@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "links/element.h"
 #include "links/pair_samples.h"
 
@@ -20,6 +21,13 @@ constexpr double sealed = -1;
 uint64_t key_of_corner(int32_t surface, LatticePoint p) {
   return static_cast<uint64_t>(surface) << 32 | static_cast<uint64_t>(p.i) << 16 |
          static_cast<uint64_t>(p.j);
+}
+
+uint32_t run_border(size_t links) {
+  if (links > 0xffffffffu)
+    fail(Status::memory,
+         "more than 4,294,967,295 links from bright emitters: use a larger accuracy");
+  return static_cast<uint32_t>(links);
 }
 
 }  // namespace
@@ -103,15 +111,14 @@ bool CornerSampler::sample() {
   reached_ += (1 - reached_) / 2;
   CornerLight& direct = state_.direct;
   for (const Result& r : results) {
-    const int64_t before = static_cast<int64_t>(direct.links.size());
+    const size_t before = direct.links.size();
     direct.links.insert(direct.links.end(), r.links.begin(), r.links.end());
-    for (size_t end : r.end) direct.first.push_back(before + static_cast<int64_t>(end));
+    for (size_t end : r.end) direct.first.push_back(run_border(before + end));
     value_.insert(value_.end(), r.value.begin(), r.value.end());
     state_.rays += r.rays;
   }
   for (const OrientedPoint& point : points) direct.place.push_back(point.place);
   wanted_.clear();
-  direct.irradiance.resize(direct.place.size() * static_cast<size_t>(state_.bands));
   return true;
 }
 
@@ -128,9 +135,8 @@ int32_t CornerSampler::add_within(NodeId id) {
     if (tools_.exposure.sealed(surface.patch, surface.side, place)) continue;
     const OrientedPoint point{place, surface.normal};
     state_.rays += grid_.open({point}, tools_.team) + light_.sample(point, key, direct.links);
-    direct.first.push_back(static_cast<int64_t>(direct.links.size()));
+    direct.first.push_back(run_border(direct.links.size()));
     direct.place.push_back(place);
-    direct.irradiance.resize(direct.place.size() * static_cast<size_t>(state_.bands));
     value_.push_back(0);
     return static_cast<int32_t>(value_.size()) - 1;
   }

@@ -42,20 +42,25 @@ void gather_run(Span<const Link> links, const State& state, float* out) {
 
 }  // namespace
 
+void gather_corner(const State& state, size_t corner, float* irradiance) {
+  const CornerLight& direct = state.direct;
+  gather_run({direct.links.data() + direct.first[corner],
+              static_cast<size_t>(direct.first[corner + 1] - direct.first[corner])},
+             state, irradiance);
+}
+
 void gather(State& state, ThreadTeam& team) {
   const size_t bands = static_cast<size_t>(state.bands);
-  CornerLight& direct = state.direct;
-  for_each_run(static_cast<int64_t>(direct.place.size()), team, [&](size_t k) {
-    const Span<const Link> links(direct.links.data() + direct.first[k],
-                                 static_cast<size_t>(direct.first[k + 1] - direct.first[k]));
-    gather_run(links, state, &direct.irradiance[k * bands]);
-  });
+  const size_t corners = state.direct.corner_count();
+  std::vector<float> at_corners(corners * bands);
+  for_each_run(static_cast<int64_t>(corners), team,
+               [&](size_t k) { gather_corner(state, k, &at_corners[k * bands]); });
   for_each_run(static_cast<int64_t>(state.forest.nodes.size()), team, [&](size_t k) {
     gather_run(state.links[k].links(), state, &state.gathered[k * bands]);
     // Light is linear between the corners of a leaf: its mean is theirs.
-    for (int b = 0; b < state.bands && !direct.of_leaf.empty(); ++b)
+    for (int b = 0; b < state.bands && corners > 0; ++b)
       state.gathered[k * bands + b] += static_cast<float>(
-          mean_of_corners(direct, static_cast<NodeId>(k), b, state.bands));
+          mean_of_corners(state.direct, at_corners, static_cast<NodeId>(k), b, state.bands));
   });
 }
 

@@ -6,6 +6,9 @@
 
 namespace hrad {
 
+// Irradiance at a corner, straight from bright emitters: bands values.
+void gather_corner(const State& state, size_t corner, float* irradiance);
+
 // state.gathered = links x state.radiosity, in double precision and in the order of each run.
 void gather(State& state, ThreadTeam& team);
 

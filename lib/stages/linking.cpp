@@ -193,8 +193,7 @@ class PairLinker {
     const double weight = e.weight();
     if (!(weight > 0)) return;
     // Reciprocity holds between the exposed parts.
-    const double back =
-        (roots_[p].area * roots_[p].exposed) / (roots_[q].area * roots_[q].exposed);
+    const double back = (roots_[p].area * roots_[p].exposed) / (roots_[q].area * roots_[q].exposed);
     found_[p].push_back({q, static_cast<float>(std::min(1.0, weight)),
                          static_cast<float>(std::min(1.0, weight * back))});
   }

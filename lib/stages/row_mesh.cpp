@@ -114,8 +114,7 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
         high = std::max(high, corners_.value(id, p));
       }
       if (low >= 0 && weighed((high - low) / 2, forest_.area(forest_.nodes[id])) <= 1) {
-        state_.direct.half_way.resize(forest_.nodes.size(), 0);
-        state_.direct.half_way[id] = 1;
+        forest_.nodes[id].half_way = 1;
         continue;
       }
     }
@@ -248,10 +247,9 @@ bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& ne
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
   for (NodeId id : leaves) {
     const NodeId first = add_children(id);
-    state_.direct.half_way.resize(forest_.nodes.size(), 0);
-    if (state_.direct.half_way[id]) {
+    if (forest_.nodes[id].half_way) {
       for (NodeId child = first; child < first + 4; ++child) {
-        state_.direct.half_way[child] = 1;
+        forest_.nodes[child].half_way = 1;
         want_half_way(child);
       }
     } else {
@@ -277,7 +275,6 @@ void RowMesh::name_corners() {
   CornerLight& direct = state_.direct;
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
   direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
-  direct.half_way.resize(forest_.nodes.size(), 0);
   for (NodeId id = named_; id < end; ++id)
     if (forest_.is_leaf(id) && forest_.nodes[id].exposed > 0) name_corners_of(id);
   named_ = end;
@@ -291,7 +288,7 @@ void RowMesh::name_corners_of(NodeId leaf) {
   const Node& node = forest_.nodes[leaf];
   LatticePoint corner[3];
   lattice_corners(node, corner);
-  if (direct.half_way[leaf]) half_way_points(node, corner);
+  if (node.half_way) half_way_points(node, corner);
   bool any = false;
   for (int c = 0; c < 3; ++c) {
     const int32_t number = corners_.number(node.surface, corner[c]);

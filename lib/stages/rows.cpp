@@ -121,6 +121,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   }
   if (!trace_rows(state, part_of(tools, 0.6, 1), settings, emitters, state.cells, rays, memory))
     return false;
+  state.direct.place = std::vector<Vec3>();
   reset_to_emission(state);
   memory.settle();
   return true;

@@ -21,24 +21,24 @@ namespace hrad {
 // Light straight from bright emitters (linking=rows), known at the corners of the leaves and linear
 // between them. No corner is shared by two surfaces.
 struct CornerLight {
-  // Per node the numbers of its corners in the order of Forest::triangle; -1: a corner without
+  // Per node the numbers of its corners, or of the points half way from them to the middle
+  // (Node::half_way), in the order of Forest::triangle; -1: a corner without
   // light of its own, sealed, or a node that is no leaf. Empty in other linking methods.
   std::vector<std::array<int32_t, 3>> of_leaf;
-  // Per node 1: these lie not at the corners but half way to the middle.
-  std::vector<uint8_t> half_way;
-  std::vector<int64_t> first;     // per corner and one more: its run of links
-  std::vector<Link> links;        // from roots of emitters
-  std::vector<Vec3> place;        // per corner: where it was sampled
-  std::vector<float> irradiance;  // per corner and band
+  std::vector<uint32_t> first;  // per corner and one more: its run of links
+  std::vector<Link> links;      // from roots of emitters
+  std::vector<Vec3> place;      // per corner: where it was sampled; empty once rows are traced
+  size_t corner_count() const { return first.empty() ? 0 : first.size() - 1; }
 };
 
-// Mean of the light at the corners of a leaf, one band; none at sealed ones.
-inline double mean_of_corners(const CornerLight& direct, NodeId leaf, int band, int bands) {
+// Mean of values at the corners of a leaf (per corner and band), one band; sealed ones have none.
+inline double mean_of_corners(const CornerLight& direct, const std::vector<float>& values,
+                              NodeId leaf, int band, int bands) {
   double sum = 0;
   int count = 0;
   for (int32_t corner : direct.of_leaf[leaf]) {
     if (corner < 0) continue;
-    sum += direct.irradiance[static_cast<size_t>(corner) * bands + band];
+    sum += values[static_cast<size_t>(corner) * bands + band];
     ++count;
   }
   return count ? sum / count : 0;

@@ -10,11 +10,10 @@ int64_t bytes_of(const State& state) {
           sizeof(float);
   for (const LinkRun& run : state.links) bytes += static_cast<size_t>(run.count()) * sizeof(Link);
   const CornerLight& direct = state.direct;
-  bytes += state.cells.capacity() * sizeof(NodeId) + direct.half_way.capacity() +
+  bytes += state.cells.capacity() * sizeof(NodeId) +
            direct.of_leaf.capacity() * sizeof direct.of_leaf[0] +
            direct.first.capacity() * sizeof direct.first[0] +
-           direct.links.capacity() * sizeof(Link) + direct.place.capacity() * sizeof(Vec3) +
-           direct.irradiance.capacity() * sizeof(float);
+           direct.links.capacity() * sizeof(Link) + direct.place.capacity() * sizeof(Vec3);
   return static_cast<int64_t>(bytes);
 }
 

@@ -10,10 +10,10 @@ namespace hrad {
 // An element of the subtree as the task sees it: an old one, or one it has just made.
 struct SubtreeNode {
   Node place;
-  NodeId old_id = -1;       // -1: new
-  int32_t parent = -1;      // index into SubtreeResult::nodes
-  int32_t first_child = -1; // likewise
-  LinkRun run;              // its links after the round
+  NodeId old_id = -1;          // -1: new
+  int32_t parent = -1;         // index into SubtreeResult::nodes
+  int32_t first_child = -1;    // likewise
+  LinkRun run;                 // its links after the round
   std::vector<Link> arriving;  // for a child handed on: links that came down to it
 };
 
@@ -26,12 +26,14 @@ struct SubtreeResult {
 class SubtreeRefiner {
  public:
   SubtreeRefiner(const State& state, const StageTools& tools, const Brightness& brightness)
-      : state_(state), tools_(tools), brightness_(brightness),
+      : state_(state),
+        tools_(tools),
+        brightness_(brightness),
         sampler_(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                  tools.oracle.near_ratio) {}
 
-  // Refines `arriving` and the old links of `root` and below. hand_on: only the root's own links; its
-  // children get theirs in SubtreeNode::arriving.
+  // Refines `arriving` and the old links of `root` and below. hand_on: only the root's own links;
+  // its children get theirs in SubtreeNode::arriving.
   SubtreeResult refine(NodeId root, Span<const Link> arriving, bool hand_on);
 
  private:

@@ -48,8 +48,7 @@ void push_pull_below(State& state, NodeId id, const double* emission, const doub
     }
   }
   for (int b = 0; b < bands; ++b) {
-    state.radiosity[at + b] =
-        static_cast<float>(weight > 0 ? radiosity[b] / weight : emission[b]);
+    state.radiosity[at + b] = static_cast<float>(weight > 0 ? radiosity[b] / weight : emission[b]);
     state.irradiance[at + b] = static_cast<float>(weight > 0 ? irradiance[b] / weight : 0);
   }
 }
@@ -97,7 +96,8 @@ float spread_below(State& state, NodeId id, const std::vector<double>& unit) {
     const float* value = &state.radiosity[static_cast<size_t>(below) * bands];
     double difference = 0;
     for (int b = 0; b < bands; ++b)
-      difference = std::max(difference, std::fabs(static_cast<double>(value[b]) - mean[b]) * unit[b]);
+      difference =
+          std::max(difference, std::fabs(static_cast<double>(value[b]) - mean[b]) * unit[b]);
     node.spread = std::max(node.spread, static_cast<float>(difference + inner));
   }
   return node.spread;
@@ -157,8 +157,7 @@ Brightness measure_brightness(State& state, ThreadTeam& team) {
   brightness.of_node.resize(state.forest.nodes.size());
   for (size_t k = 0; k < brightness.of_node.size(); ++k)
     brightness.of_node[k] = brightness_of(&state.radiosity[k * state.bands], brightness.unit);
-  for_each_surface(state, team,
-                   [&](NodeId root) { spread_below(state, root, brightness.unit); });
+  for_each_surface(state, team, [&](NodeId root) { spread_below(state, root, brightness.unit); });
   return brightness;
 }
 
@@ -187,7 +186,8 @@ Brightness expected_brightness(const State& state) {
     for (int b = 0; b < bands; ++b) {
       const size_t at = static_cast<size_t>(patch) * bands + b;
       if (brightness.unit[b] > 0)
-        largest = std::max(largest, scene.emission[at] * brightness.unit[b] + scene.reflectance[at]);
+        largest =
+            std::max(largest, scene.emission[at] * brightness.unit[b] + scene.reflectance[at]);
     }
     brightness.of_node[k] = static_cast<float>(largest);
   }

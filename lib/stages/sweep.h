@@ -10,7 +10,8 @@ namespace hrad {
 // exposed part; a node sealed all over has B = E and H = 0.
 void push_pull(State& state, ThreadTeam& team);
 
-// New elements know better than their parents what is sealed: these take the mean of their children.
+// New elements know better than their parents what is sealed: these take the mean of their
+// children.
 void pull_exposure(Forest& forest);
 
 // B = E, H = 0 everywhere: where every solve starts.
@@ -23,7 +24,8 @@ std::vector<double> transported(const State& state, ThreadTeam& team);
 // Units and brightness of the nodes, and Node::spread, from the present radiosity.
 Brightness measure_brightness(State& state, ThreadTeam& team);
 
-// Before there is any irradiance: emitters by emission, the rest by the scene's mean interreflection.
+// Before there is any irradiance: emitters by emission, the rest by the scene's mean
+// interreflection.
 Brightness expected_brightness(const State& state);
 
 }  // namespace hrad

@@ -34,7 +34,7 @@ struct Rows {
     for (int32_t corner : state.direct.of_leaf[leaf]) {
       if (corner < 0) continue;
       ++corners;
-      for (int64_t k = state.direct.first[corner]; k < state.direct.first[corner + 1]; ++k)
+      for (uint32_t k = state.direct.first[corner]; k < state.direct.first[corner + 1]; ++k)
         direct += state.direct.links[k].weight;
     }
     return sum + (corners ? direct / corners : 0);
@@ -127,7 +127,7 @@ void cells_cover_all_surfaces() {
     for (int32_t corner : state.direct.of_leaf[id]) {
       const bool may_have = state.forest.is_leaf(id) && state.forest.nodes[id].exposed > 0;
       if (!may_have) CHECK_EQUAL(corner, -1);
-      CHECK(corner < static_cast<int32_t>(state.direct.place.size()));
+      CHECK(corner < static_cast<int32_t>(state.direct.corner_count()));
     }
 }
 
