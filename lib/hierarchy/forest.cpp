@@ -71,18 +71,24 @@ NodeId Forest::root(int64_t patch, int32_t side) const {
 NodeId Forest::leaf_at(NodeId root, double u, double v) const {
   NodeId id = root;
   while (!is_leaf(id)) {
-    const Node& n = nodes[id];
-    const double scale = static_cast<double>(1 << n.level);
-    // Place within the element, measured from its first corner.
-    double x = u * scale - n.i, y = v * scale - n.j;
-    if (n.inverted) {
-      x = 1 - x;
-      y = 1 - y;
-    }
+    double x, y;
+    element_coordinates(nodes[id], u, v, &x, &y);
     const int child = x > 0.5 ? 1 : y > 0.5 ? 2 : x + y < 0.5 ? 0 : 3;
-    id = n.first_child + child;
+    id = nodes[id].first_child + child;
   }
   return id;
+}
+
+NodeId Forest::leaf_met(const Hit& hit) const {
+  const NodeId met = hit.patch < 0 ? -1 : root(hit.patch, hit.back ? 1 : 0);
+  if (met < 0) return -1;
+  return hit.back ? leaf_at(met, hit.v, hit.u) : leaf_at(met, hit.u, hit.v);
+}
+
+double Forest::total_area() const {
+  double area = 0;
+  for (const Surface& surface : surfaces) area += surface.area;
+  return area;
 }
 
 std::vector<NodeId> Forest::leaves() const {

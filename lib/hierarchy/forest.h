@@ -9,6 +9,7 @@
 #include "base/span.h"
 #include "base/vec3.h"
 #include "scene/scene.h"
+#include "visibility/visibility.h"
 
 namespace hrad {
 
@@ -23,6 +24,11 @@ struct Surface {
   Vec3 normal;       // towards the side the light comes from
   double area = 0;
 };
+
+// In one plane, and facing the same way.
+inline bool share_plane(const Surface& a, const Surface& b) {
+  return dot(a.normal, b.normal) > 1 - 1e-9;
+}
 
 // An element. Its place in the patch is a triangle of the lattice that L subdivisions draw: with
 // the point of coordinates (i,j) at u = i/2^L, v = j/2^L, an upright one has the corners (i,j),
@@ -42,6 +48,23 @@ struct Node {
 };
 static_assert(sizeof(Node) <= 32, "nodes are to stay small");
 
+// From (u,v) of the root triangle to (x,y) within an element, measured from its first corner, and
+// back.
+inline void element_coordinates(const Node& n, double u, double v, double* x, double* y) {
+  const double scale = static_cast<double>(1 << n.level);
+  *x = u * scale - n.i;
+  *y = v * scale - n.j;
+  if (n.inverted) {
+    *x = 1 - *x;
+    *y = 1 - *y;
+  }
+}
+inline void root_coordinates(const Node& n, double x, double y, double* u, double* v) {
+  const double scale = static_cast<double>(1 << n.level);
+  *u = (n.i + (n.inverted ? 1 - x : x)) / scale;
+  *v = (n.j + (n.inverted ? 1 - y : y)) / scale;
+}
+
 // The lattice place of one of the four children; 3 is the one in the middle.
 Node child_place(const Node& parent, int child);
 
@@ -54,6 +77,7 @@ class Forest {
   double area(const Node& n) const {
     return surfaces[n.surface].area / static_cast<double>(int64_t{1} << (2 * n.level));
   }
+  double total_area() const;  // of all surfaces
   // Corners of the patch as seen from the surface's side.
   Triangle root_triangle(int32_t surface) const;
   Triangle triangle(const Node& n) const;
@@ -61,6 +85,8 @@ class Forest {
   NodeId root(int64_t patch, int32_t side) const;
   // The leaf of a surface that holds the point (u,v) of its root triangle.
   NodeId leaf_at(NodeId root, double u, double v) const;
+  // The leaf that a ray has met, -1 where nothing that exchanges light on that side was met.
+  NodeId leaf_met(const Hit& hit) const;
   // All leaves in key order (patch, side, path).
   std::vector<NodeId> leaves() const;
 

@@ -45,12 +45,7 @@ struct DirectLight::Batch {
 
 DirectLight::DirectLight(const Forest& forest, const VisibilityEngine& engine,
                          const Emitters& emitters, const LightGrid& grid, double noise)
-    : forest_(forest), engine_(engine), emitters_(emitters), grid_(grid), noise_(noise) {
-  for (const Emitter& e : emitters.all()) {
-    first_element_.push_back(static_cast<int32_t>(elements_.size()));
-    for (NodeId root : e.surfaces) elements_.push_back(element_of(forest, forest.nodes[root]));
-  }
-}
+    : forest_(forest), engine_(engine), emitters_(emitters), grid_(grid), noise_(noise) {}
 
 int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
                             std::vector<Link>& links) const {
@@ -133,14 +128,10 @@ void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<L
 int64_t DirectLight::sample_near(NodeId root, const OrientedPoint& point, uint64_t key,
                                  std::vector<Link>& links) const {
   const Vec3 x = point.place, normal = point.normal;
-  const Triangle corners = forest_.root_triangle(root);
+  const Element element = element_of(forest_, forest_.nodes[root]);
+  const Triangle& corners = element.corners;
   const double factor = point_to_triangle(x, normal, corners);
   if (!(factor > 0)) return 0;
-  const int32_t number = emitters_.of_root(root);
-  const Emitter& e = emitters_.all()[number];
-  const Element& element =
-      elements_[first_element_[number] +
-                (std::find(e.surfaces.begin(), e.surfaces.end(), root) - e.surfaces.begin())];
   KernelParts parts;
   parts.divide(x, normal, element);
   SegmentPacket packet;

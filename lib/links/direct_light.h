@@ -40,8 +40,6 @@ class DirectLight {
   const Emitters& emitters_;
   const LightGrid& grid_;
   const double noise_;
-  std::vector<Element> elements_;       // of all emitting roots
-  std::vector<int32_t> first_element_;  // per emitter
 };
 
 }  // namespace hrad

@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "base/angle.h"
+#include "base/draw.h"
 #include "base/low_discrepancy.h"
+#include "base/triangle_points.h"
 
 namespace hrad {
 namespace {
 
-constexpr double same_plane = 1 - 1e-9;
 constexpr size_t most_surfaces_of_an_emitter = 8;
 
 bool shine_alike(const Scene& scene, const Surface& a, const Surface& b) {
@@ -30,12 +31,12 @@ bool share_an_edge(const Triangle& a, const Triangle& b) {
 
 void finish(const Forest& forest, Emitter& e) {
   Vec3 sum{0, 0, 0};
-  std::vector<double> until;
+  std::vector<double> areas;
   for (NodeId root : e.surfaces) {
     const double area = forest.surfaces[root].area;
     sum = sum + forest.root_triangle(root).centroid() * area;
     e.area += area;
-    until.push_back(e.area);
+    areas.push_back(area);
   }
   e.center = sum * (1 / e.area);
   for (NodeId root : e.surfaces) {
@@ -45,18 +46,16 @@ void finish(const Forest& forest, Emitter& e) {
   }
   const Surface& first = forest.surfaces[e.surfaces.front()];
   const uint64_t key = mix(static_cast<uint64_t>(first.patch), static_cast<uint64_t>(first.side));
+  const Draw draw(areas);
   for (uint32_t k = 0; k < 16; ++k) {
     double p[4];
     low_discrepancy_point(key, k, p);
     // The first coordinate picks the surface and goes on within it.
-    const double at = p[0] * e.area;
-    size_t s = 0;
-    while (s + 1 < until.size() && until[s] <= at) ++s;
-    const double from = s ? until[s - 1] : 0;
-    const double u = std::min(1.0, std::max(0.0, (at - from) / (until[s] - from))), v = p[1];
-    // Even in area, without a fold: neighbouring (u,v) stay neighbours.
-    const double root = std::sqrt(u);
-    e.point[k] = forest.root_triangle(e.surfaces[s]).at(root * (1 - v), root * v);
+    const size_t pick = draw.pick(p[0]);
+    const NodeId root = e.surfaces[pick];
+    double u, v;
+    even_in_triangle(draw.rest(pick, p[0]), p[1], &u, &v);
+    e.point[k] = forest.root_triangle(root).at(u, v);
   }
 }
 
@@ -67,8 +66,7 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
   const Scene& scene = *forest.scene;
   for (NodeId root = 0; root < forest.surface_count(); ++root) {
     const Surface& surface = forest.surfaces[root];
-    const double* emission = &scene.emission[static_cast<size_t>(surface.patch) * scene.bands];
-    if (!std::any_of(emission, emission + scene.bands, [](double e) { return e > 0; })) continue;
+    if (!scene.emits(surface.patch)) continue;
     // In an enclosure the mean radiosity equals the mean irradiance: what shines no brighter than
     // all else makes no noise.
     const double excess = brightness[root] - 1.0;
@@ -78,7 +76,7 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
       Emitter& last = emitters_.back();
       const Surface& other = forest.surfaces[last.surfaces.back()];
       if (last.surfaces.size() < most_surfaces_of_an_emitter && last.brightness == excess &&
-          dot(surface.normal, last.normal) > same_plane && shine_alike(scene, surface, other) &&
+          share_plane(surface, other) && shine_alike(scene, surface, other) &&
           share_an_edge(forest.root_triangle(root), forest.root_triangle(last.surfaces.back()))) {
         last.surfaces.push_back(root);
         of_root_[root] = static_cast<int32_t>(emitters_.size()) - 1;

@@ -13,20 +13,18 @@ constexpr int pilot_packets = 2;
 
 }  // namespace
 
-Vec3 LightGrid::center_of(Vec3 place) const {
+Vec3 LightGrid::corner_of(Vec3 place) const {
   const Vec3 at = (place - engine_.center()) * (1 / size_);
-  return engine_.center() +
-         Vec3{std::floor(at.x) + 0.5, std::floor(at.y) + 0.5, std::floor(at.z) + 0.5} * size_;
+  return {std::floor(at.x), std::floor(at.y), std::floor(at.z)};
 }
 
 uint64_t LightGrid::key_of(const OrientedPoint& p) const {
-  const Vec3 at = (p.place - engine_.center()) * (1 / size_);
   const double x = std::fabs(p.normal.x), y = std::fabs(p.normal.y), z = std::fabs(p.normal.z);
   const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-  const uint64_t facing = static_cast<uint64_t>(2 * axis + (p.normal[axis] < 0));
-  uint64_t key = facing;
-  for (double c : {at.x, at.y, at.z})
-    key = key << 20 | (static_cast<uint64_t>(static_cast<int64_t>(std::floor(c))) & 0xfffff);
+  uint64_t key = static_cast<uint64_t>(2 * axis + (p.normal[axis] < 0));
+  const Vec3 corner = corner_of(p.place);
+  for (double c : {corner.x, corner.y, corner.z})
+    key = key << 20 | (static_cast<uint64_t>(static_cast<int64_t>(c)) & 0xfffff);
   return key;
 }
 
@@ -50,8 +48,9 @@ int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& te
 
 int64_t LightGrid::find_emitters(const std::vector<OrientedPoint>& points, Cube& cube) const {
   int64_t rays = 0;
-  const Vec3 center = center_of(points[cube.points.front()].place);
-  const double radius = 0.87 * size_;
+  const Vec3 corner = corner_of(points[cube.points.front()].place);
+  const Vec3 center = engine_.center() + (corner + Vec3{0.5, 0.5, 0.5}) * size_;
+  const double radius = 0.87 * size_;  // half the diagonal
   for (size_t e = 0; e < emitters_.all().size(); ++e) {
     const Emitter& emitter = emitters_.all()[e];
     if (emitters_.can_be_bright(emitter, center, radius))

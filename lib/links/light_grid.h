@@ -41,7 +41,7 @@ class LightGrid {
     std::vector<Candidate> candidates;
     std::vector<int32_t> points;  // of those that opened it
   };
-  Vec3 center_of(Vec3 place) const;  // of its cube
+  Vec3 corner_of(Vec3 place) const;  // of its cube, in whole cubes from the middle of the scene
   uint64_t key_of(const OrientedPoint& point) const;
   int64_t find_emitters(const std::vector<OrientedPoint>& points, Cube& cube) const;
   bool hidden(const Emitter& emitter, const std::vector<OrientedPoint>& points, const Cube& cube,

@@ -5,6 +5,7 @@
 
 #include "base/angle.h"
 #include "base/hash.h"
+#include "base/triangle_points.h"
 
 namespace hrad {
 namespace {
@@ -63,17 +64,11 @@ FloatTriangle lifted(const Element& e, Vec3 center, double offset) {
 }  // namespace
 
 void point_in_place(const Node& place, double a, double b, float* u, float* v) {
-  if (a + b > 1) {
-    a = 1 - a;
-    b = 1 - b;
-  }
-  if (place.inverted) {
-    a = 1 - a;
-    b = 1 - b;
-  }
-  const double cells = 1 << place.level;
-  *u = static_cast<float>((place.i + a) / cells);
-  *v = static_cast<float>((place.j + b) / cells);
+  fold_into_triangle(a, b);
+  double root_u, root_v;
+  root_coordinates(place, a, b, &root_u, &root_v);
+  *u = static_cast<float>(root_u);
+  *v = static_cast<float>(root_v);
 }
 
 const PairPoints& pattern_of(uint64_t key) {

@@ -1,6 +1,8 @@
 // Building a scene patch by patch. Floor 3 (scene).
 #include "scene/scene.h"
 
+#include <algorithm>
+
 #include <limits>
 #include <utility>
 
@@ -32,6 +34,11 @@ void Scene::add_patch(int32_t a, int32_t b, int32_t c, int32_t material_number,
                                        (m.blocker ? patch_blocker : 0)));
   emission.insert(emission.end(), m.emission.begin(), m.emission.end());
   reflectance.insert(reflectance.end(), m.reflectance.begin(), m.reflectance.end());
+}
+
+bool Scene::emits(int64_t patch) const {
+  const double* first = &emission[static_cast<size_t>(patch) * bands];
+  return std::any_of(first, first + bands, [](double e) { return e > 0; });
 }
 
 int64_t Scene::bytes() const {

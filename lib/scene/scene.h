@@ -36,6 +36,12 @@ struct Scene {
 
   int64_t patch_count() const { return static_cast<int64_t>(corners.size()); }
   bool has(int64_t patch, PatchFlags flag) const { return (flags[patch] & flag) != 0; }
+  // Takes part: neither dropped nor a blocker.
+  bool exchanges(int64_t patch) const {
+    return !has(patch, patch_dropped) && !has(patch, patch_blocker);
+  }
+  // In any band, whether it takes part or not.
+  bool emits(int64_t patch) const;
   Triangle triangle(int64_t patch) const {
     const std::array<int32_t, 3>& c = corners[patch];
     return {vertices[c[0]], vertices[c[1]], vertices[c[2]]};

@@ -9,9 +9,6 @@
 namespace hrad {
 namespace {
 
-// Surfaces whose normals agree this well and that share an edge are taken as one plane.
-constexpr double same_plane = 1 - 1e-9;
-
 // Per vertex of the scene the lowest vertex at the same position.
 std::vector<int32_t> weld(const std::vector<Vec3>& vertices) {
   std::vector<int32_t> order(vertices.size()), welded(vertices.size());
@@ -70,7 +67,7 @@ CornerIndex::CornerIndex(const Forest& forest) {
       for (size_t b = a + 1; b < std::min(end, a + 8); ++b) {
         const Surface &x = forest.surfaces[edges[a].surface],
                       &y = forest.surfaces[edges[b].surface];
-        if (dot(x.normal, y.normal) < same_plane) continue;
+        if (!share_plane(x, y)) continue;
         const int32_t p = find_root(plane_, edges[a].surface),
                       q = find_root(plane_, edges[b].surface);
         plane_[std::max(p, q)] = std::min(p, q);

@@ -72,9 +72,7 @@ DisplayColors::DisplayColors(const Solver& solver) : bands_(solver.scene().bands
     const double value = brightest(red_green_blue(radiosity.data(), bands_));
     if (value <= 0) continue;
     const LeafView leaf = solver.leaf(i);
-    const double* emission = &solver.scene().emission[static_cast<size_t>(leaf.patch) * bands_];
-    const bool emits = std::any_of(emission, emission + bands_, [](double e) { return e > 0; });
-    (emits ? emitting : reflecting).emplace_back(value, leaf.area);
+    (solver.scene().emits(leaf.patch) ? emitting : reflecting).emplace_back(value, leaf.area);
   }
   const double white = white_of(reflecting.empty() ? emitting : reflecting);
   if (white > darkest_white) exposure_ = 1 / white;

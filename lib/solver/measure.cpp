@@ -7,6 +7,8 @@
 #include "base/frame.h"
 #include "base/hash.h"
 #include "base/low_discrepancy.h"
+#include "base/triangle_points.h"
+#include "links/element.h"
 #include "solver/ray_gather.h"
 
 namespace hrad {
@@ -16,37 +18,10 @@ constexpr int most_bands = 16;
 constexpr int measured_patches = 512;
 constexpr int64_t rays_of_the_balance = 131072;
 
-// Draws items in proportion to their weights, spread evenly: item of draw k of `draws`.
-class EvenDraw {
- public:
-  explicit EvenDraw(const std::vector<double>& weights) {
-    double sum = 0;
-    for (double w : weights) cumulative_.push_back(sum += w);
-  }
-  double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
-  size_t pick(double fraction) const {
-    const double at = fraction * total();
-    const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), at);
-    return std::min(static_cast<size_t>(found - cumulative_.begin()), cumulative_.size() - 1);
-  }
-
- private:
-  std::vector<double> cumulative_;
-};
-
 Vec3 point_of(const Triangle& t, uint64_t hash) {
   double u = unit_interval(mix(hash, 1)), v = unit_interval(mix(hash, 2));
-  if (u + v > 1) {
-    u = 1 - u;
-    v = 1 - v;
-  }
+  fold_into_triangle(u, v);
   return t.at(u, v);
-}
-
-bool dark(const Scene& scene, int32_t patch) {
-  for (int b = 0; b < scene.bands; ++b)
-    if (scene.emission[static_cast<size_t>(patch) * scene.bands + b] > 0) return false;
-  return true;
 }
 
 // One drawn patch, all bands together.
@@ -65,12 +40,8 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
   const Surface& surface = state.forest.surfaces[root];
   const int bands = state.bands;
   const bool can_be_sealed = tools.exposure.can_be_sealed(surface.patch, surface.side);
-  const Triangle corners = state.forest.root_triangle(root);
-  const Vec3 center = corners.centroid();
-  double radius = 0;
-  for (const Vec3& corner : {corners.a, corners.b, corners.c})
-    radius = std::max(radius, length(corner - center));
-  const RayGather::Choice choice = rays.choice_near(center, surface.normal, radius);
+  const Element element = element_of(state.forest, state.forest.nodes[root]);
+  const Draw emitters = rays.emitters_near(element);
   double sum[2][most_bands] = {};
   Residual r;
   for (int half = 0; half < 2; ++half)
@@ -79,11 +50,12 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
       double p[4], light[4], value[most_bands];
       low_discrepancy_point(mix(key, static_cast<uint64_t>(half), 1), k, p);
       low_discrepancy_point(mix(key, static_cast<uint64_t>(half), 2), k, light);
-      const double from_a = std::sqrt(p[0]);
-      const Vec3 on = corners.at(from_a * (1 - p[1]), from_a * p[1]);
+      double u, v;
+      even_in_triangle(p[0], p[1], &u, &v);
+      const Vec3 on = element.corners.at(u, v);
       if (can_be_sealed && tools.exposure.sealed(surface.patch, surface.side, on)) continue;
       r.rays += rays.sample_once(on + surface.normal * tools.engine.offset(), surface.normal, p + 2,
-                                 light, choice, value);
+                                 light, emitters, value);
       for (int b = 0; b < bands; ++b) sum[half][b] += value[b];
     }
   const double exposed = state.forest.nodes[root].exposed;
@@ -120,14 +92,14 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
                          scene.reflectance[static_cast<size_t>(surface.patch) * scene.bands + b]);
     reflecting += largest * surface.area;
     area += surface.area;
-    if (!dark(scene, surface.patch)) continue;
+    if (scene.emits(surface.patch)) continue;
     reflected = reflected || largest > 0;
     weights.push_back(surface.area);
     roots.push_back(root);
   }
   ErrorEstimate estimate;
   if (roots.empty()) return estimate;
-  const EvenDraw draw(weights);
+  const Draw draw(weights);
   const RayGather rays(state, tools.engine);
   const double wanted = 128 * (0.02 / accuracy) * (0.02 / accuracy);
   const int rays_of_a_half = static_cast<int>(std::max(64.0, std::min(512.0, wanted)));
@@ -202,7 +174,7 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
         weights[k] +=
             exposed * state.radiosity[static_cast<size_t>(leaves[k]) * bands + b] / leaving[b];
   }
-  const EvenDraw draw(weights);
+  const Draw draw(weights);
   if (!(draw.total() > 0)) return balance;
 
   // A fixed number of tasks, each with sums of its own, added in order.

@@ -7,6 +7,8 @@
 
 #include "base/frame.h"
 #include "base/hash.h"
+#include "base/low_discrepancy.h"
+#include "base/triangle_points.h"
 
 namespace hrad {
 namespace {
@@ -19,35 +21,8 @@ double largest_emission(const Scene& scene, int32_t patch) {
                            scene.emission.begin() + static_cast<std::ptrdiff_t>(at) + scene.bands);
 }
 
-// Uniform in a triangle from the unit square, folded along the diagonal.
-void fold(double& u, double& v) {
-  if (u + v > 1) {
-    u = 1 - u;
-    v = 1 - v;
-  }
-}
-
-// The bits of k mirrored at the binary point: 0, 1/2, 1/4, 3/4, 1/8 ...
-double reversed_bits_of_fraction(uint32_t k) {
-  double value = 0, place = 0.5;
-  for (; k; k >>= 1, place /= 2) value += (k & 1) * place;
-  return value;
-}
-
 // Of being picked by power, beside 1 for the light that would arrive.
 constexpr double share_by_power = 0.05;
-
-RayGather::Choice choice_of(std::vector<double> weights) {
-  RayGather::Choice choice;
-  double sum = 0, until = 0;
-  for (double w : weights) sum += w;
-  for (double& w : weights) {
-    w /= sum;
-    choice.cumulative.push_back(until += w);
-  }
-  choice.chance = std::move(weights);
-  return choice;
-}
 
 }  // namespace
 
@@ -64,27 +39,26 @@ RayGather::RayGather(const State& state, const VisibilityEngine& engine)
     emitters_.push_back(root);
     power_.push_back(power);
   }
-  by_power_ = choice_of(power_);
+  by_power_ = Draw(power_);
 }
 
-RayGather::Choice RayGather::choice_near(Vec3 center, Vec3 normal, double radius) const {
+Draw RayGather::emitters_near(const Element& receiver) const {
   std::vector<double> light;
   double sum = 0;
   for (size_t e = 0; e < emitters_.size(); ++e) {
-    const Triangle triangle = state_.forest.root_triangle(emitters_[e]);
-    const Vec3 d = triangle.centroid() - center;
-    const double reach = radius + length(triangle.a - triangle.centroid());
+    const Element emitter = element_of(state_.forest, state_.forest.nodes[emitters_[e]]);
+    const Vec3 d = emitter.centroid - receiver.centroid;
+    const double reach = receiver.radius + emitter.radius;
     const double distance2 = std::max(dot(d, d), reach * reach), distance = std::sqrt(distance2);
-    const double at_x = std::min(1.0, (dot(d, normal) + reach) / distance);
-    const double at_y =
-        std::min(1.0, (reach - dot(d, state_.forest.surfaces[emitters_[e]].normal)) / distance);
-    light.push_back(power_[e] * std::max(0.0, at_x) * std::max(0.0, at_y) / distance2);
+    const double at_receiver = std::min(1.0, (dot(d, receiver.normal) + reach) / distance);
+    const double at_emitter = std::min(1.0, (reach - dot(d, emitter.normal)) / distance);
+    light.push_back(power_[e] * std::max(0.0, at_receiver) * std::max(0.0, at_emitter) / distance2);
     sum += light.back();
   }
   if (!(sum > 0)) return by_power_;
   for (size_t e = 0; e < light.size(); ++e)
-    light[e] = light[e] / sum + share_by_power * by_power_.chance[e];
-  return choice_of(light);
+    light[e] = light[e] / sum + share_by_power * by_power_.chance(e);
+  return Draw(light);
 }
 
 // Emission that arrives from a point of an emitter at distance d may be found by a cosine ray and
@@ -107,7 +81,7 @@ int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, int rays, double* sum,
     const uint64_t h = mix(key, static_cast<uint64_t>(k));
     // Directions from a Hammersley set, jittered in one coordinate and turned in the other.
     const double u = (k + unit_interval(mix(h, 1))) / rays;
-    const double v = reversed_bits_of_fraction(static_cast<uint32_t>(k)) + turn;
+    const double v = reversed_bits(static_cast<uint32_t>(k)) * (1.0 / 4294967296.0) + turn;
     const double hemisphere[2] = {std::min(u, 1 - 1e-12), v < 1 ? v : v - 1};
     const double light[3] = {(k + unit_interval(mix(h, 3))) / rays, unit_interval(mix(h, 4)),
                              unit_interval(mix(h, 5))};
@@ -122,31 +96,29 @@ int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, int rays, double* sum,
 }
 
 int64_t RayGather::sample_once(Vec3 x, Vec3 n, const double hemisphere[2], const double light[3],
-                               const Choice& choice, double* value) const {
+                               const Draw& emitters, double* value) const {
   std::fill(value, value + state_.bands, 0.0);
-  add_by_cosine_ray(x, n, hemisphere, choice, value);
+  add_by_cosine_ray(x, n, hemisphere, emitters, value);
   if (emitters_.empty()) return 1;
-  return 1 + add_by_shadow_ray(x, n, light, choice, value);
+  return 1 + add_by_shadow_ray(x, n, light, emitters, value);
 }
 
 // Reflected light, and the share of emitted light that such rays are to find.
-void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], const Choice& choice,
+void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], const Draw& emitters,
                                   double* value) const {
   const Scene& scene = *state_.forest.scene;
   const Forest& forest = state_.forest;
   const int bands = state_.bands;
   const Vec3 direction = Frame(n).cosine_direction(hemisphere[0], hemisphere[1]);
   const Hit hit = engine_.nearest(x, direction, 0);
-  if (hit.patch < 0) return;
-  const NodeId root = forest.root(hit.patch, hit.back ? 1 : 0);
-  if (root < 0) return;
-  const NodeId leaf =
-      hit.back ? forest.leaf_at(root, hit.v, hit.u) : forest.leaf_at(root, hit.u, hit.v);
+  const NodeId leaf = forest.leaf_met(hit);
+  if (leaf < 0) return;
+  const NodeId root = forest.nodes[leaf].surface;
   // Sealed or not, the emitted part is the patch's own and even.
   const int32_t e = emitter_of_[root];
   const double emitted =
-      e >= 0 ? share(static_cast<size_t>(e), choice.chance[e], hit.t * hit.t, dot(direction, n),
-                     std::fabs(dot(direction, forest.surfaces[root].normal)))
+      e >= 0 ? share(static_cast<size_t>(e), emitters.chance(static_cast<size_t>(e)), hit.t * hit.t,
+                     dot(direction, n), std::fabs(dot(direction, forest.surfaces[root].normal)))
              : 0.0;
   for (int b = 0; b < bands; ++b) {
     const double emission = scene.emission[static_cast<size_t>(hit.patch) * bands + b];
@@ -155,16 +127,14 @@ void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], co
   }
 }
 
-int RayGather::add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Choice& choice,
+int RayGather::add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Draw& emitters,
                                  double* value) const {
   const Scene& scene = *state_.forest.scene;
   const Forest& forest = state_.forest;
-  const auto found = std::upper_bound(choice.cumulative.begin(), choice.cumulative.end(), light[0]);
-  const size_t e =
-      std::min(static_cast<size_t>(found - choice.cumulative.begin()), emitters_.size() - 1);
+  const size_t e = emitters.pick(light[0]);
   const Surface& emitter = forest.surfaces[emitters_[e]];
   double su = light[1], sv = light[2];
-  fold(su, sv);
+  fold_into_triangle(su, sv);
   const Vec3 y = forest.root_triangle(emitters_[e]).at(su, sv) + emitter.normal * engine_.offset();
   const Vec3 d = y - x;
   const double d2 = dot(d, d), at_x = dot(d, n), at_y = -dot(d, emitter.normal);
@@ -172,7 +142,7 @@ int RayGather::add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Ch
   const Hit first = engine_.nearest(x, d, 0);
   if (first.patch >= 0 && first.t < 1) return 1;
   const double distance = std::sqrt(d2);
-  const double worth = share(e, choice.chance[e], d2, at_x / distance, at_y / distance);
+  const double worth = share(e, emitters.chance(e), d2, at_x / distance, at_y / distance);
   for (int b = 0; b < state_.bands; ++b)
     value[b] += worth * scene.emission[static_cast<size_t>(emitter.patch) * state_.bands + b];
   return 1;

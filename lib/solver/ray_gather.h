@@ -6,23 +6,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/draw.h"
+#include "links/element.h"
 #include "stages/state.h"
 
 namespace hrad {
 
 class RayGather {
  public:
-  // How shadow rays pick their emitters.
-  struct Choice {
-    std::vector<double> cumulative;  // per emitter: running sum of chances, last 1
-    std::vector<double> chance;
-  };
-
   RayGather(const State& state, const VisibilityEngine& engine);
 
-  // By the light that would arrive without occlusion in a ball, on surfaces of this normal; nearly
-  // none is never picked.
-  Choice choice_near(Vec3 center, Vec3 normal, double radius) const;
+  // Emitters by the light that would arrive from them without occlusion anywhere on an element; of
+  // those that give power, none is never picked.
+  Draw emitters_near(const Element& receiver) const;
 
   // Adds `rays` samples of each kind at x (on or off a surface; the caller has moved it off) with
   // normal n to sums per band: their sum and the sum of their squares, one sample being what one
@@ -34,12 +30,12 @@ class RayGather {
   // coordinates in the unit square; light: the shadow ray's three, the first of which picks the
   // emitter. Returns the number of rays traced.
   int64_t sample_once(Vec3 x, Vec3 n, const double hemisphere[2], const double light[3],
-                      const Choice& choice, double* value) const;
+                      const Draw& emitters, double* value) const;
 
  private:
-  void add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], const Choice& choice,
+  void add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], const Draw& emitters,
                          double* value) const;
-  int add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Choice& choice,
+  int add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Draw& emitters,
                         double* value) const;
   double share(size_t emitter, double chance, double distance2, double at_x, double at_y) const;
 
@@ -48,7 +44,7 @@ class RayGather {
   std::vector<NodeId> emitters_;     // roots with emission
   std::vector<double> power_;        // of each
   std::vector<int32_t> emitter_of_;  // per root its place among them, -1: none
-  Choice by_power_;
+  Draw by_power_;
 };
 
 }  // namespace hrad

@@ -111,13 +111,8 @@ void LinearField::corners(NodeId element, double* out) const {
 }
 
 void LinearField::add_at(NodeId element, double u, double v, double* out) const {
-  const Node& n = forest_.nodes[element];
-  const double scale = static_cast<double>(1 << n.level);
-  double x = u * scale - n.i, y = v * scale - n.j;
-  if (n.inverted) {
-    x = 1 - x;
-    y = 1 - y;
-  }
+  double x, y;
+  element_coordinates(forest_.nodes[element], u, v, &x, &y);
   const auto& corner = corner_numbers(element);
   const double weight[3] = {1 - x - y, x, y};
   for (int b = 0; b < bands_; ++b)

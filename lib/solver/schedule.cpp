@@ -44,8 +44,7 @@ constexpr double least_cell_share = 1.0 / 256, least_element_share = 1.0 / (1 <<
 }  // namespace
 
 OracleSettings oracle_of_round(const Params& params, const State& state, int round, double scale) {
-  double area = 0;
-  for (const Surface& surface : state.forest.surfaces) area += surface.area;
+  const double area = state.forest.total_area();
   const Scene& scene = *state.forest.scene;
   double power = 0;
   for (int b = 0; b < scene.bands; ++b) {
@@ -97,8 +96,7 @@ RowSettings rows_of(const Params& params, const Forest& forest, double distance,
   const double leg = distance * row_leg * std::sqrt(ratio);
   RowSettings s;
   // Surfaces that all but touch must not make cells without number.
-  double area = 0;
-  for (const Surface& surface : forest.surfaces) area += surface.area;
+  const double area = forest.total_area();
   const double most_cells =
       cells_of_a_surface * static_cast<double>(forest.surface_count()) + cells_of_a_scene / ratio;
   s.cell_area = std::max(std::min(leg * leg / 2, area / fewest_cells), area / most_cells);

@@ -111,13 +111,9 @@ void check_patch_range(const Scene& scene, int64_t first, int64_t count) {
 
 constexpr const char* no_emitter = "no emitter: no patch emits and the solution is 0 everywhere";
 
-bool emits(const Scene& scene) {
-  const auto bands = static_cast<size_t>(scene.bands);
-  for (int64_t patch = 0; patch < scene.patch_count(); ++patch) {
-    if (scene.has(patch, patch_dropped) || scene.has(patch, patch_blocker)) continue;
-    for (size_t band = 0; band < bands; ++band)
-      if (scene.emission[static_cast<size_t>(patch) * bands + band] > 0) return true;
-  }
+bool any_emitter(const Scene& scene) {
+  for (int64_t patch = 0; patch < scene.patch_count(); ++patch)
+    if (scene.exchanges(patch) && scene.emits(patch)) return true;
   return false;
 }
 
@@ -222,7 +218,7 @@ void Solver::load_scene(const std::string& path) {
   check_patches(scene_, addition.first_patch());
   check_memory(scene_, params_.max_memory);
   warn(log_, scene_, diagnostics);
-  if (scene_.patch_count() > 0 && !emits(scene_)) log_.write(Log::warning, no_emitter);
+  if (scene_.patch_count() > 0 && !any_emitter(scene_)) log_.write(Log::warning, no_emitter);
   addition.keep();
 }
 
@@ -270,7 +266,7 @@ void Solver::set_reflectance(int64_t first, int64_t count, const double* values)
 
 std::vector<std::string> Solver::diagnostics() const {
   std::vector<std::string> all = scene_.diagnostics;
-  if (scene_.patch_count() > 0 && !emits(scene_)) all.push_back(no_emitter);
+  if (scene_.patch_count() > 0 && !any_emitter(scene_)) all.push_back(no_emitter);
   if (!solution_) return all;
   const Inspection& inspection = solution_->inspection;
   const Stats known = stats();

@@ -6,8 +6,8 @@
 
 #include "base/frame.h"
 #include "base/low_discrepancy.h"
+#include "base/triangle_points.h"
 #include "links/element.h"
-#include "links/pair_samples.h"
 
 namespace hrad {
 namespace {
@@ -19,12 +19,8 @@ double direct_share(const State& state, const Emitters& emitters, int32_t emitte
                     double u, double v) {
   const auto& corner = state.direct.of_leaf[leaf];
   const Node& node = state.forest.nodes[leaf];
-  const double scale = static_cast<double>(1 << node.level);
-  double x = u * scale - node.i, y = v * scale - node.j;
-  if (node.inverted) {
-    x = 1 - x;
-    y = 1 - y;
-  }
+  double x, y;
+  element_coordinates(node, u, v, &x, &y);
   const double weight[3] = {1 - x - y, x, y};
   double all = 0, direct = 0;
   for (int c = 0; c < 3; ++c) {
@@ -58,31 +54,29 @@ class RowTracer {
     for (int k = 0; k < most && counted < wanted; ++k) {
       double p[4];
       low_discrepancy_point(key, static_cast<uint32_t>(k), p);
-      const double root = std::sqrt(p[0]);
-      const Vec3 on = corners.at(root * (1 - p[1]), root * p[1]);
+      double x, y;
+      even_in_triangle(p[0], p[1], &x, &y);
+      const Vec3 on = corners.at(x, y);
       if (node.exposed < 1 && tools_.exposure.sealed(surface.patch, surface.side, on)) continue;
       ++counted;
       ++rays;
       const Hit hit = tools_.engine.nearest(on + surface.normal * tools_.engine.offset(),
                                             frame.cosine_direction(p[2], p[3]), 0);
-      if (hit.patch < 0) continue;
-      const NodeId source = forest.root(hit.patch, hit.back ? 1 : 0);
+      const NodeId source = forest.leaf_met(hit);
       if (source < 0) continue;
       double worth = 1;
-      const int32_t emitter = emitters_.of_root(source);
+      const int32_t emitter = emitters_.of_root(forest.nodes[source].surface);
       if (emitter >= 0) {
         double u, v;
-        root_coordinates(node, root * (1 - p[1]), root * p[1], &u, &v);
+        root_coordinates(node, x, y, &u, &v);
         worth -= direct_share(state_, emitters_, emitter, forest.leaf_at(node.surface, u, v), u, v);
         if (!(worth > 0)) continue;
       }
-      const NodeId leaf =
-          hit.back ? forest.leaf_at(source, hit.v, hit.u) : forest.leaf_at(source, hit.u, hit.v);
-      if (forest.nodes[leaf].exposed < 1 &&
+      if (forest.nodes[source].exposed < 1 &&
           tools_.exposure.under_a_back(hit.patch, hit.back,
                                        forest.scene->triangle(hit.patch).at(hit.u, hit.v)))
         continue;
-      hits_.push_back({leaf, static_cast<float>(worth)});
+      hits_.push_back({source, static_cast<float>(worth)});
     }
     std::sort(hits_.begin(), hits_.end(), [](const Link& a, const Link& b) {
       return a.source != b.source ? a.source < b.source : a.weight < b.weight;
@@ -98,17 +92,6 @@ class RowTracer {
   int64_t rays = 0;
 
  private:
-  // From (x,y) within an element to (u,v) of its root.
-  static void root_coordinates(const Node& node, double x, double y, double* u, double* v) {
-    if (node.inverted) {
-      x = 1 - x;
-      y = 1 - y;
-    }
-    const double scale = static_cast<double>(1 << node.level);
-    *u = (node.i + x) / scale;
-    *v = (node.j + y) / scale;
-  }
-
   const State& state_;
   const StageTools& tools_;
   const RowSettings& settings_;

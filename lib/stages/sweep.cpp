@@ -145,8 +145,7 @@ std::vector<double> transported(const State& state, ThreadTeam& team) {
 }
 
 Brightness measure_brightness(State& state, ThreadTeam& team) {
-  double area = 0;
-  for (const Surface& surface : state.forest.surfaces) area += surface.area;
+  const double area = state.forest.total_area();
   Brightness brightness;
   brightness.unit = surface_sums(state, team, [&](NodeId id, double leaf_area, double* row) {
     const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];

@@ -62,11 +62,6 @@ bool overlap(const Triangle& s, const Triangle& t, Vec3 normal, double margin) {
   return !separated_by_edge_of(s, t) && !separated_by_edge_of(t, s);
 }
 
-bool emits(const Scene& scene, int64_t patch) {
-  const double* emission = &scene.emission[static_cast<size_t>(patch) * scene.bands];
-  return std::any_of(emission, emission + scene.bands, [](double e) { return e > 0; });
-}
-
 // Of two parallel surfaces that are pressed together, which lies on the other: the higher one, seen
 // from the side in question. Without a difference a sheet with two fronts lies on a surface with
 // one, a lamp on what is dark, and otherwise the first of the two is seen, as with duplicates.
@@ -74,7 +69,7 @@ bool lies_on(const Scene& scene, int64_t q, int64_t p, double height, double tie
   if (std::fabs(height) > tie) return height > 0;
   const bool q_sheet = scene.has(q, patch_two_sided), p_sheet = scene.has(p, patch_two_sided);
   if (q_sheet != p_sheet) return q_sheet;
-  const bool q_emits = emits(scene, q), p_emits = emits(scene, p);
+  const bool q_emits = scene.emits(q), p_emits = scene.emits(p);
   if (q_emits != p_emits) return q_emits;
   return q < p;
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/draw.h"
 #include "base/frame.h"
 #include "base/hash.h"
+#include "base/triangle_points.h"
 
 namespace hrad {
 
@@ -15,16 +17,7 @@ constexpr int rays_of_a_half = 2048;
 // A patch of this many offsets is a point to the rays.
 constexpr double smallest_in_offsets = 4;
 
-bool exchanges(const Scene& scene, int64_t patch) {
-  return !scene.has(patch, patch_dropped) && !scene.has(patch, patch_blocker);
-}
-
-bool emits(const Scene& scene, int64_t patch) {
-  const double* emission = &scene.emission[static_cast<size_t>(patch) * scene.bands];
-  return std::any_of(emission, emission + scene.bands, [](double e) { return e > 0; });
-}
-
-// Shoots from patches drawn in proportion to their areas, given as running sums.
+// Shoots from patches drawn in proportion to their areas.
 class Rays {
  public:
   Rays(const Scene& scene, const VisibilityEngine& engine, const Exposure& exposure)
@@ -32,16 +25,13 @@ class Rays {
 
   // Points inside solids are left out, as nothing is seen there, unless told otherwise: a lamp in
   // an inside-out room is inside a solid.
-  void shoot(const std::vector<int64_t>& patches, const std::vector<double>& area_until,
+  void shoot(const std::vector<int64_t>& patches, const std::vector<double>& areas,
              bool also_in_solids) {
-    if (patches.empty() || !(area_until.back() > 0)) return;
+    const Draw draw(areas);
+    if (!(draw.total() > 0)) return;
     for (int k = 0; k < rays_of_a_half; ++k) {
       const uint64_t h = mix(static_cast<uint64_t>(k), 0x696e7370u);
-      const double at = (k + unit_interval(h)) / rays_of_a_half * area_until.back();
-      const auto found = std::upper_bound(area_until.begin(), area_until.end(), at);
-      const size_t last = patches.size() - 1;
-      shoot_from(patches[std::min(static_cast<size_t>(found - area_until.begin()), last)],
-                 also_in_solids, h);
+      shoot_from(patches[draw.pick((k + unit_interval(h)) / rays_of_a_half)], also_in_solids, h);
     }
   }
 
@@ -54,10 +44,7 @@ class Rays {
   void shoot_from(int64_t patch, bool also_in_solids, uint64_t h) {
     const Triangle triangle = scene_.triangle(patch);
     double u = unit_interval(mix(h, 1)), v = unit_interval(mix(h, 2));
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
+    fold_into_triangle(u, v);
     const Vec3 point = triangle.at(u, v), normal = normalized(triangle.area_vector());
     if (also_in_solids ? exposure_.pressed(patch, 0, point) : exposure_.sealed(patch, 0, point))
       return;
@@ -69,7 +56,7 @@ class Rays {
       distance_ += hit.t;
       ++distances_;
     }
-    backs_ += hit.patch >= 0 && hit.back && exchanges(scene_, hit.patch) &&
+    backs_ += hit.patch >= 0 && hit.back && scene_.exchanges(hit.patch) &&
               !scene_.has(hit.patch, patch_two_sided);
   }
 
@@ -87,21 +74,18 @@ Inspection inspect(const Scene& scene, const VisibilityEngine& engine, const Exp
   result.smallest = smallest_in_offsets * engine.offset();
   std::vector<int64_t> all, emitters;
   std::vector<double> area_of_all, area_of_emitters;
-  const auto add = [](double area, std::vector<double>& until) {
-    until.push_back((until.empty() ? 0 : until.back()) + area);
-  };
   for (int64_t patch = 0; patch < scene.patch_count(); ++patch) {
     if (scene.has(patch, patch_dropped)) continue;
     const Triangle t = scene.triangle(patch);
     const double longest = std::max({length(t.b - t.a), length(t.c - t.b), length(t.a - t.c)});
     if (longest <= result.smallest && result.unresolved++ == 0) result.first_unresolved = patch;
-    if (!exchanges(scene, patch)) continue;
+    if (!scene.exchanges(patch)) continue;
     const double area = length(t.area_vector()) / 2;
     all.push_back(patch);
-    add(area, area_of_all);
-    if (!emits(scene, patch)) continue;
+    area_of_all.push_back(area);
+    if (!scene.emits(patch)) continue;
     emitters.push_back(patch);
-    add(area, area_of_emitters);
+    area_of_emitters.push_back(area);
   }
   Rays rays(scene, engine, exposure);
   rays.shoot(emitters, area_of_emitters, true);

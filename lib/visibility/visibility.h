@@ -47,10 +47,9 @@ class VisibilityEngine {
   // Bit i set: something lies strictly between the ends of segment i (0 < t < 1). Any thread.
   virtual uint32_t blocked(const SegmentPacket& packet) const = 0;
 
-  // The nearest hit of a ray with t > t_min; of equally near ones that of a patch met from its front,
-  // of the lowest such patch. Origin
-  // and direction are in scene coordinates (not relative to the center); the direction need not have
-  // length 1. Any thread.
+  // The nearest hit of a ray with t > t_min; of equally near ones that of a patch met from its
+  // front, of the lowest such patch. Origin and direction are in scene coordinates (not relative to
+  // the center); the direction need not have length 1. Any thread.
   virtual Hit nearest(Vec3 origin, Vec3 direction, double t_min) const = 0;
 
   virtual const char* name() const = 0;     // "builtin" or "embree"

@@ -133,13 +133,7 @@ inline Vec3 packet_direction(const SegmentPacket& packet, int i) {
 }
 
 inline void set_segment(SegmentPacket& packet, int i, Vec3 from, Vec3 to, Vec3 center) {
-  const Vec3 o = from - center, d = to - from;
-  packet.ox[i] = static_cast<float>(o.x);
-  packet.oy[i] = static_cast<float>(o.y);
-  packet.oz[i] = static_cast<float>(o.z);
-  packet.dx[i] = static_cast<float>(d.x);
-  packet.dy[i] = static_cast<float>(d.y);
-  packet.dz[i] = static_cast<float>(d.z);
+  packet.set(i, from - center, to - center);
   packet.active |= 1u << i;
 }
 
