@@ -82,9 +82,7 @@ Stats Solver::stats() const {
   s.leaves = static_cast<int64_t>(solution.leaves.size());
   s.rays = state.rays;
   s.pairs = state.pairs;
-  s.links = 0;
-  for (const LinkRun& run : state.links) s.links += run.count();
-  s.links += static_cast<int64_t>(state.direct.links.size());
+  s.links = state.links.link_count() + static_cast<int64_t>(state.direct.links.size());
   s.link_bytes = s.links * static_cast<int64_t>(sizeof(Link));
   s.node_bytes = s.elements * static_cast<int64_t>(sizeof(Node) + sizeof(LinkRun) +
                                                    3 * sizeof(float) * state.bands);

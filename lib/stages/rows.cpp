@@ -56,7 +56,7 @@ std::vector<int> rays_by_area(const State& state, const RowSettings& settings,
 }
 
 // Variance of what one ray of a row brings.
-double variance_of(const LinkRun& row, const Brightness& light) {
+double variance_of(LinkRun row, const Brightness& light) {
   double mean = 0, square = 0;
   for (const Link& link : row.links()) {
     const double weight = link.weight, brightness = light.of_node[link.source];

@@ -10,7 +10,7 @@
 
 #include "base/memory_budget.h"
 #include "hierarchy/forest.h"
-#include "links/link.h"
+#include "links/link_table.h"
 #include "links/oracle.h"
 #include "machine/thread_team.h"
 #include "visibility/exposure.h"

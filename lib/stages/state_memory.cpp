@@ -5,10 +5,9 @@ namespace hrad {
 
 int64_t bytes_of(const State& state) {
   size_t bytes =
-      state.forest.nodes.capacity() * sizeof(Node) + state.links.capacity() * sizeof(LinkRun) +
+      state.forest.nodes.capacity() * sizeof(Node) + static_cast<size_t>(state.links.bytes()) +
       (state.radiosity.capacity() + state.irradiance.capacity() + state.gathered.capacity()) *
           sizeof(float);
-  for (const LinkRun& run : state.links) bytes += static_cast<size_t>(run.count()) * sizeof(Link);
   const CornerLight& direct = state.direct;
   bytes += state.cells.capacity() * sizeof(NodeId) +
            direct.of_leaf.capacity() * sizeof direct.of_leaf[0] +

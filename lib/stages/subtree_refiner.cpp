@@ -33,7 +33,7 @@ SubtreeResult SubtreeRefiner::refine(NodeId root, Span<const Link> arriving, boo
     if (result_.handed_on && at > 0)
       result_.nodes[at].arriving = std::move(work_[at].out);
     else
-      result_.nodes[at].run.assign(work_[at].out);
+      result_.nodes[at].run.assign(work_[at].out.begin(), work_[at].out.end());
   }
   result_.rays = sampler_.rays() - rays_before;
   return std::move(result_);

@@ -181,7 +181,7 @@ void gathering_is_the_product_of_links_and_radiosity() {
       for (uint64_t m = 0; m < mix(k, 9) % 6; ++m)
         links.push_back({static_cast<NodeId>(mix(k, m, 3) % count),
                          static_cast<float>(unit_interval(mix(k, m, 4)))});
-      state.links[k].assign(links);
+      state.links.replace({{static_cast<NodeId>(k), links}});
       for (const Link& link : links)
         for (int b = 0; b < bands; ++b)
           wanted[k * bands + b] +=
@@ -206,8 +206,7 @@ void sweeps_reach_the_solution() {
   Workbench bench(std::move(scene), 2);
   bench.prepare();
   const Link to_lamp{0, 0.5f}, to_wall{1, 0.5f};
-  bench.state.links[0].assign(Span<const Link>(&to_wall, 1));
-  bench.state.links[1].assign(Span<const Link>(&to_lamp, 1));
+  bench.state.links.replace({{0, {&to_wall, 1}}, {1, {&to_lamp, 1}}});
   bench.sweep(60);
   const double lamp = 2 / (1 - 0.4 * 0.5 * 0.8 * 0.5), wall = 0.8 * 0.5 * lamp;
   CHECK_NEAR(bench.state.radiosity[0], lamp, 1e-6);
