@@ -38,9 +38,8 @@ struct Node {
   uint8_t half_way = 0;  // its corners' direct light is known half way to its middle
   uint8_t reserved = 0;
   float exposed = 1;  // share of the area that is not sealed (design: the exposure rule)
-  float spread = 0;   // largest deviation of a leaf's radiosity from the node's, relative units
 };
-static_assert(sizeof(Node) <= 32, "nodes are to stay small");
+static_assert(sizeof(Node) <= 24, "nodes are to stay small");
 
 // The lattice place of one of the four children; 3 is the one in the middle.
 Node child_place(const Node& parent, int child);

@@ -16,6 +16,12 @@ uint32_t offset_in_block(size_t links) {
 
 }  // namespace
 
+LinkTable::Block LinkTable::block(size_t number) const {
+  const size_t receiver = number * receivers_of_a_block;
+  return {receiver, std::min(receivers_of_a_block, first_.size() - receiver),
+          blocks_[number].data(), &first_[receiver], static_cast<uint32_t>(blocks_[number].size())};
+}
+
 int64_t LinkTable::link_count() const {
   size_t count = 0;
   for (const auto& block : blocks_) count += block.size();

@@ -26,7 +26,6 @@ class LinkTable {
   static constexpr size_t receivers_of_a_block = 1024;
 
   size_t size() const { return first_.size(); }
-  size_t block_count() const { return blocks_.size(); }
   LinkRun operator[](size_t receiver) const {
     const std::vector<Link>& block = blocks_[receiver / receivers_of_a_block];
     const size_t next = receiver + 1;
@@ -34,6 +33,17 @@ class LinkTable {
         next < first_.size() && next % receivers_of_a_block != 0 ? first_[next] : block.size();
     return {block.data() + first_[receiver], end - first_[receiver]};
   }
+  // The runs of neighbouring receivers: of receiver + k the links from first[k] up to first[k + 1],
+  // of the last one up to `end`.
+  struct Block {
+    size_t receiver, receivers;
+    const Link* links;
+    const uint32_t* first;
+    uint32_t end;
+  };
+  size_t block_count() const { return blocks_.size(); }
+  Block block(size_t number) const;
+
   int64_t link_count() const;
   // Of the arrays, and of that what the links take.
   int64_t bytes() const;

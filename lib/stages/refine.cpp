@@ -57,7 +57,6 @@ void store(State& state, SubtreeResult& result, std::vector<LinkTable::NewRun>& 
       for (int band = 0; band < state.bands; ++band) {
         state.radiosity.push_back(state.radiosity[from + band]);
         state.irradiance.push_back(state.irradiance[from + band]);
-        state.gathered.push_back(0);
       }
     }
     if (!(result.handed_on && at > 0)) new_links.push_back({id[at], node.run});
@@ -118,6 +117,7 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
         "refined links");
     state.links.resize(state.forest.nodes.size());
     state.links.replace(std::move(new_links));
+    shrink_to_fit(state);
     memory.settle();
     finished += static_cast<int64_t>(tasks.size());
     tasks = std::move(next);

@@ -34,8 +34,9 @@ StageTools part_of(const StageTools& tools, double from, double to) {
 
 Brightness light_of_pilot_rows(State& state, ThreadTeam& team) {
   reset_to_emission(state);
+  GatherSpace space;
   for (int k = 0; k < pilot_sweeps; ++k) {
-    gather(state, team);
+    gather(state, team, space);
     push_pull(state, team);
   }
   return measure_brightness(state, team);
@@ -122,7 +123,9 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   if (!trace_rows(state, part_of(tools, 0.6, 1), settings, emitters, state.cells, rays, memory))
     return false;
   state.direct.place = std::vector<Vec3>();
+  drop_unnamed_corners(state.direct);
   reset_to_emission(state);
+  shrink_to_fit(state);
   memory.settle();
   return true;
 }

@@ -87,7 +87,7 @@ LinkLoad SubtreeRefiner::load_of(int32_t at, const Link& link, double source_are
   LinkLoad load;
   load.weight = link.weight;
   load.brightness = brightness_.of_node[link.source];
-  load.source_spread = source.spread;
+  load.source_spread = brightness_.spread[link.source];
   load.receiver_area = forest.area(place);
   load.patch_area = forest.surfaces[place.surface].area;
   load.source_area = source_area;

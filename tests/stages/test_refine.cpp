@@ -88,7 +88,6 @@ void forests_are_well_formed() {
     CHECK_EQUAL(bench.state.links.size(), forest.nodes.size());
     CHECK_EQUAL(bench.state.radiosity.size(), forest.nodes.size() * 3);
     CHECK_EQUAL(bench.state.irradiance.size(), forest.nodes.size() * 3);
-    CHECK_EQUAL(bench.state.gathered.size(), forest.nodes.size() * 3);
     for (NodeId id = 0; id < count; ++id) {
       const Node& node = forest.nodes[id];
       CHECK((node.parent < 0) == (id < forest.surface_count()));
