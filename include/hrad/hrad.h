@@ -310,8 +310,12 @@ HRAD_API hrad_status hrad_set_progress(hrad_solver *solver, hrad_progress_functi
                                        void *user);
 
 /* [C] Solves: linking, then refinement and sweeps until the radiosity transported stands still and
- * the accuracy is met; goes on from the present state if there is one (parameter refine = 0: sweeps
- * on the present links alone).
+ * the accuracy is met; goes on from the present state if there is one.
+ * With the parameter refine = 0, for a new emission or reflectance: sweeps from B = E over the present
+ * mesh and links alone, a small part of the time of a whole solve. The result depends on these and on
+ * the light, not on any light that was solved for in between. How good the present mesh is for the
+ * new light is measured when hrad_get_stats or hrad_power_balance first asks, which takes longer than
+ * the sweeps; the status tells here only whether the sweeps converged.
  * Returns HRAD_OK, HRAD_NOT_CONVERGED, or HRAD_STOPPED (call it again to go on; the queries answer
  * from the last whole round, or STATE when there is none). Errors: SCENE for an empty scene, STATE for
  * refine = 0 without links, UNSUPPORTED for a method that is not in this build, MEMORY; after MEMORY
@@ -342,7 +346,9 @@ typedef struct hrad_stats {
   int64_t messages[3], message_bytes[3]; /* R, U, T */
 } hrad_stats;
 
-/* [C] Counts and times so far. Never STATE: zeros before a solve. */
+/* [C] Counts and times so far. Never STATE: zeros before a solve. After a solve with refine = 0 the
+ * first call measures error and balance by rays (error_estimate stays negative when emission or
+ * reflectance changed in between). */
 HRAD_API hrad_status hrad_get_stats(const hrad_solver *solver, hrad_stats *stats);
 
 /* [C] A hash of scene, result parameters, tree, links and radiosity; the same for any number of ranks
@@ -387,7 +393,8 @@ HRAD_API hrad_status hrad_query_leaves(const hrad_solver *solver, int64_t first,
 
 /* [C] Power in W per band (bands values each, any may be NULL): emitted; absorbed by fronts; absorbed
  * by black backs, blockers and inside sealed contacts; escaped to the outside. Each is measured by its
- * own links or rays. STATE before a solve. */
+ * own links or rays; after a solve with refine = 0 when first asked for. STATE before a solve, or when
+ * emission or reflectance changed before that. */
 HRAD_API hrad_status hrad_power_balance(const hrad_solver *solver, double *emitted, double *absorbed,
                                         double *absorbed_back, double *escaped);
 

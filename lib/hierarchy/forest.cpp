@@ -93,6 +93,9 @@ double Forest::total_area() const {
 
 std::vector<NodeId> Forest::leaves() const {
   std::vector<NodeId> result, stack;
+  size_t count = 0;
+  for (const Node& node : nodes) count += node.first_child < 0;
+  result.reserve(count);
   for (NodeId root = 0; root < surface_count(); ++root) {
     stack.push_back(root);
     while (!stack.empty()) {

@@ -44,9 +44,8 @@ struct Node {
   uint8_t half_way = 0;  // its corners' direct light is known half way to its middle
   uint8_t reserved = 0;
   float exposed = 1;  // share of the area that is not sealed (design: the exposure rule)
-  float spread = 0;   // largest deviation of a leaf's radiosity from the node's, relative units
 };
-static_assert(sizeof(Node) <= 32, "nodes are to stay small");
+static_assert(sizeof(Node) <= 24, "nodes are to stay small");
 
 // From (u,v) of the root triangle to (x,y) within an element, measured from its first corner, and
 // back.

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "solver/ray_gather.h"
+#include "solver/schedule.h"
 #include "solver/solution.h"
 
 namespace hrad {
@@ -56,15 +57,30 @@ void node_values(const State& state, NodeId id, Quantity quantity, double* out) 
 
 }  // namespace
 
-void Solver::Solution::prepare_queries() {
-  leaves = state.forest.leaves();
-  reconstruction.reset();
-}
-
 const Reconstruction& Solver::reconstruction() const {
   Solution& s = *solution_;
   if (!s.reconstruction) s.reconstruction = std::make_unique<Reconstruction>(s.state, s.leaves);
   return *s.reconstruction;
+}
+
+void Solver::Solution::measure(const StageTools& tools, double accuracy, Stats& stats) {
+  const ErrorEstimate estimate = estimate_error(state, tools, accuracy);
+  stats.error_estimate = estimate.error;
+  stats.error_standard_error = estimate.standard_error;
+  balance = measure_balance(state, tools);
+  state.rays += estimate.rays + balance.rays;
+  finished = true;
+  measuring_due = false;
+}
+
+void Solver::measure_if_due() const {
+  if (!solution_ || !solution_->measuring_due) return;
+  // The light that was solved for is gone from the scene, and can't be measured any more.
+  if (hash_of_light(scene_) != solution_->light_hash) return;
+  Solution& s = *solution_;
+  s.measure({*s.team, *s.engine, *s.exposure,
+             oracle_of_round(params_, s.state, first_rounds, s.scale), [](double) { return true; }},
+            params_.accuracy, stats_);
 }
 
 bool Solver::solved() const { return solution_ && solution_->linked; }
@@ -225,6 +241,11 @@ std::array<int32_t, 3> Solver::leaf_corner_numbers(int64_t index) const {
 void Solver::power_balance(double* emitted, double* absorbed, double* absorbed_back,
                            double* escaped) const {
   require_solved();
+  measure_if_due();
+  if (solution_->measuring_due)
+    fail(Status::state,
+         "emission or reflectance changed after a solve with refine=0 whose balance nobody had "
+         "asked for: call hrad_solve first");
   const PowerBalance& balance = solution_->balance;
   const auto copy = [&](const std::vector<double>& from, double* to) {
     if (!to) return;

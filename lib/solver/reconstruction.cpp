@@ -29,15 +29,15 @@ constexpr int most_bands = 16;
 
 // Irradiance that arrives evenly over a cell or leaf; the mean of a small one says more about its
 // corner than that of a large one, whose middle is farther away.
-double even_light(const State& state, const std::vector<float>& at_corners, NodeId id,
-                  double* values) {
+double even_light(const State& state, NodeId id, double* values) {
   const Node& node = state.forest.nodes[id];
-  const bool by_rows = !state.cells.empty();
-  for (int b = 0; b < state.bands; ++b) {
-    const size_t at = static_cast<size_t>(id) * state.bands + b;
-    values[b] =
-        by_rows ? state.gathered[at] - mean_of_corners(state.direct, at_corners, id, b, state.bands)
-                : state.irradiance[at];
+  if (state.cells.empty()) {
+    const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
+    std::copy(irradiance, irradiance + state.bands, values);
+  } else {
+    float by_row[most_bands];
+    gather_links(state, id, by_row);
+    std::copy(by_row, by_row + state.bands, values);
   }
   return node.exposed / std::sqrt(state.forest.area(node));
 }
@@ -130,9 +130,7 @@ LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
   std::vector<float> at_corners(state.direct.corner_count() * bands);
   for (size_t k = 0; k < state.direct.corner_count(); ++k)
     gather_corner(state, k, &at_corners[k * bands]);
-  const auto even = [&](NodeId id, int, double* values) {
-    return even_light(state, at_corners, id, values);
-  };
+  const auto even = [&](NodeId id, int, double* values) { return even_light(state, id, values); };
   if (state.cells.empty()) return LinearField(forest, state.bands, leaves, even);
   const LinearField on_cells(forest, state.bands, state.cells, even);
   return LinearField(forest, state.bands, leaves, [&](NodeId leaf, int c, double* values) {

@@ -31,16 +31,25 @@ struct Solver::Solution {
   bool sweeping = false;        // sweeps are under way
   int sweeping_round = 0;       // those of this round, whose links are refined already
   Convergence convergence{0};   // of these sweeps
+  bool from_emission = false;   // these sweeps began with B = E on the links as they are
+  int64_t earlier_sweeps = 0;   // for other lights: max_iterations counts from there
   bool converged = false;       // the last sweeps stood still
   bool finished = false;        // measured
+  bool measuring_due = false;   // not yet: when somebody asks
   double accuracy_reached = 0;  // the accuracy that was asked for then
-  uint64_t light_hash = 0;      // of emission and reflectance at that time
+  uint64_t light_hash = 0;      // of the emission and reflectance that light was swept for
+  uint64_t mesh_hash = 0;       // likewise, that mesh and links were made for
+
+  // Error and balance by rays, into stats and balance.
+  void measure(const StageTools& tools, double accuracy, Stats& stats);
 
   // For queries, made when the solve is finished or stopped.
-  void prepare_queries();
   std::vector<NodeId> leaves;  // in key order
   std::unique_ptr<Reconstruction> reconstruction;
   PowerBalance balance;
 };
+
+// Of emission and reflectance.
+uint64_t hash_of_light(const Scene& scene);
 
 }  // namespace hrad

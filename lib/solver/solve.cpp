@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/hash.h"
 #include "solver/progress_clock.h"
 #include "solver/schedule.h"
 #include "solver/solution.h"
@@ -31,13 +30,6 @@ double user_seconds() {
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_utime.tv_sec) +
          1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
-
-uint64_t hash_of_light(const Scene& scene) {
-  Hasher hash;
-  for (double value : scene.emission) hash.add(value);
-  for (double value : scene.reflectance) hash.add(value);
-  return hash.value();
 }
 
 // The share of a leaf's or a root's area that is exposed.
@@ -66,14 +58,11 @@ class Solver::Run {
         }) {}
 
   Status run() {
+    if (params_.refine == 0) return sweep_again();
     start_over_if_the_light_changed();
     // Sweeps that a stop broke off go on first.
     if (solution_.sweeping && !sweep(solution_.sweeping_round)) return Status::stopped;
     if (!solution_.linked && !link()) return Status::stopped;
-    if (params_.refine == 0) {
-      if (!sweep(first_rounds)) return Status::stopped;
-      return finish();
-    }
     // More sweeps are allowed now than when they ran out.
     if (solution_.finished && !solution_.converged && !out_of_sweeps()) {
       solution_.finished = false;
@@ -90,7 +79,9 @@ class Solver::Run {
 
  private:
   int rounds_wanted() const { return by_rows_ ? 0 : first_rounds + solution_.tightened; }
-  bool out_of_sweeps() const { return solver_.stats_.iterations >= params_.max_iterations; }
+  bool out_of_sweeps() const {
+    return solver_.stats_.iterations - solution_.earlier_sweeps >= params_.max_iterations;
+  }
 
   StageTools tools(int oracle_round) {
     return {*solution_.team, *solution_.engine, *solution_.exposure,
@@ -98,28 +89,59 @@ class Solver::Run {
             [this](double fraction) { return clock_.report(fraction, solver_.stats_.iterations); }};
   }
 
+  // refine=0: sweeps over the present links from B = E. Nothing of the light before is left, so
+  // that the result is that of mesh, links, emission and reflectance alone.
+  Status sweep_again() {
+    const uint64_t light = hash_of_light(solver_.scene_);
+    const bool goes_on =
+        solution_.sweeping && solution_.from_emission && light == solution_.light_hash;
+    solution_.light_hash = light;
+    if (!goes_on) begin_from_emission(first_rounds);
+    solution_.finished = solution_.measuring_due = false;
+    solver_.stats_.error_estimate = -1;
+    solver_.stats_.error_standard_error = 0;
+    solution_.balance = PowerBalance{};
+    if (!sweep(solution_.sweeping_round)) return Status::stopped;
+    // Rays would take longer than the sweeps.
+    solution_.measuring_due = true;
+    clock_.report(1.0, solver_.stats_.iterations);
+    return solution_.converged ? Status::ok : Status::not_converged;
+  }
+
   void start_over_if_the_light_changed() {
     const uint64_t light = hash_of_light(solver_.scene_);
-    const bool changed = solution_.linked && light != solution_.light_hash;
+    const bool other_mesh = solution_.linked && light != solution_.mesh_hash;
+    const bool other_light = solution_.linked && light != solution_.light_hash;
     const bool more_accurate = params_.accuracy < solution_.accuracy_reached;
-    solution_.light_hash = light;
+    solution_.light_hash = solution_.mesh_hash = light;
     solution_.accuracy_reached = params_.accuracy;
-    if (changed || more_accurate) solution_.finished = false;
-    if (changed) {
-      reset_to_emission(state_);
-      solution_.sweeping = false;
-    }
-    if (by_rows_) {
-      // The mesh follows the light: only refine=0 keeps it.
-      if ((changed || more_accurate) && params_.refine != 0) {
-        solution_.linked = solution_.sweeping = false;
-        solution_.tightened = 0;
-        solution_.scale = 1;
-      }
-    } else if (changed || more_accurate) {
-      // The mesh stays; the last round looks at every link again under the new light.
+    if (other_mesh || other_light || more_accurate)
+      solution_.finished = solution_.measuring_due = false;
+    // Of pairs the mesh stays; the last round looks at every link again under the new light.
+    if (!by_rows_ && (other_mesh || more_accurate))
       solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
+    if (other_mesh || other_light)
+      begin_from_emission(by_rows_ ? first_rounds : solution_.rounds_done);
+    // By rows it follows the light.
+    if (by_rows_ && (other_mesh || more_accurate)) {
+      solution_.linked = solution_.sweeping = false;
+      solution_.tightened = 0;
+      solution_.scale = 1;
     }
+  }
+
+  void begin_from_emission(int round) {
+    reset_to_emission(state_);
+    begin_sweeps(round);
+    solution_.from_emission = true;
+    solution_.earlier_sweeps = solver_.stats_.iterations;
+  }
+
+  void begin_sweeps(int round) {
+    solution_.sweeping = true;
+    solution_.from_emission = false;
+    solution_.sweeping_round = round;
+    solution_.convergence = Convergence(sweep_tolerance(params_, round));
   }
 
   bool link() {
@@ -179,18 +201,16 @@ class Solver::Run {
   bool sweep(int round) {
     const auto start = std::chrono::steady_clock::now();
     clock_.begin("sweep", clock_.fraction(), clock_.fraction() + 0.02);
-    if (!solution_.sweeping) {
-      solution_.sweeping = true;
-      solution_.sweeping_round = round;
-      solution_.convergence = Convergence(sweep_tolerance(params_, round));
-    }
+    if (!solution_.sweeping) begin_sweeps(round);
+    StageMemory memory(state_);
+    memory.take(bytes_of_gather_space(state_), "the light of a sweep");
+    GatherSpace space;
     bool going_on = true;
     solution_.converged = false;
     while (going_on && !solution_.converged && !out_of_sweeps()) {
-      gather(state_, *solution_.team);
-      push_pull(state_, *solution_.team);
+      gather(state_, *solution_.team, space);
+      solution_.converged = solution_.convergence.reached(push_pull(state_, *solution_.team));
       ++solver_.stats_.iterations;
-      solution_.converged = solution_.convergence.reached(transported(state_, *solution_.team));
       going_on = clock_.report(0.5, solver_.stats_.iterations);
     }
     solver_.stats_.seconds_iterative +=
@@ -204,14 +224,7 @@ class Solver::Run {
   Status finish() {
     clock_.begin("measure", 0.95, 1.0);
     const StageTools stage = tools(first_rounds);
-    if (!solution_.finished) {
-      const ErrorEstimate estimate = estimate_error(state_, stage, params_.accuracy);
-      solver_.stats_.error_estimate = estimate.error;
-      solver_.stats_.error_standard_error = estimate.standard_error;
-      solution_.balance = measure_balance(state_, stage);
-      state_.rays += estimate.rays + solution_.balance.rays;
-      solution_.finished = true;
-    }
+    if (!solution_.finished) solution_.measure(stage, params_.accuracy, solver_.stats_);
     clock_.report(1.0, solver_.stats_.iterations);
     const bool missed = steered_by_accuracy() &&
                         error_but(3) > std::max(surely_missed * params_.accuracy, least_measurable);
@@ -271,7 +284,8 @@ Status Solver::solve() {
   stop_requested_.store(false);
   stats_.converged = status == Status::ok;
   stats_.cpu_seconds += user_seconds() - cpu;
-  solution_->prepare_queries();
+  solution_->reconstruction.reset();
+  if (params_.refine != 0) solution_->leaves = solution_->state.forest.leaves();
   return status;
 }
 

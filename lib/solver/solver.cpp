@@ -27,6 +27,13 @@ int64_t peak_memory() {
 
 }  // namespace
 
+uint64_t hash_of_light(const Scene& scene) {
+  Hasher hash;
+  for (double value : scene.emission) hash.add(value);
+  for (double value : scene.reflectance) hash.add(value);
+  return hash.value();
+}
+
 Solver::Solver() = default;
 Solver::~Solver() = default;
 
@@ -71,6 +78,11 @@ std::string Solver::describe_machine() const {
 }
 
 Stats Solver::stats() const {
+  measure_if_due();
+  return counts();
+}
+
+Stats Solver::counts() const {
   Stats s = stats_;
   s.patches = scene_.patch_count();
   s.memory_peak_bytes = peak_memory();
@@ -82,15 +94,10 @@ Stats Solver::stats() const {
   s.leaves = static_cast<int64_t>(solution.leaves.size());
   s.rays = state.rays;
   s.pairs = state.pairs;
-  s.links = 0;
-  for (const LinkRun& run : state.links) s.links += run.count();
-  s.links += static_cast<int64_t>(state.direct.links.size());
-  s.link_bytes = s.links * static_cast<int64_t>(sizeof(Link));
-  s.node_bytes = s.elements * static_cast<int64_t>(sizeof(Node) + sizeof(LinkRun) +
-                                                   3 * sizeof(float) * state.bands);
-  const CornerLight& direct = state.direct;
-  s.node_bytes += static_cast<int64_t>(direct.of_leaf.size() * sizeof direct.of_leaf[0] +
-                                       direct.first.size() * sizeof direct.first[0]);
+  s.links = state.links.link_count() + static_cast<int64_t>(state.direct.links.size());
+  s.link_bytes = bytes_of_links(state);
+  s.node_bytes =
+      bytes_of_nodes(state) + static_cast<int64_t>(solution.leaves.capacity() * sizeof(NodeId));
   s.area = s.sealed_area = 0;
   for (size_t k = 0; k < state.forest.surfaces.size(); ++k) {
     s.area += state.forest.surfaces[k].area;

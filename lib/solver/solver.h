@@ -98,6 +98,8 @@ class Solver {
   struct Solution;
   class Run;
   void require_solved() const;
+  void measure_if_due() const;
+  Stats counts() const;  // stats() with what has been measured already
   const class Reconstruction& reconstruction() const;
   void require_open() const;  // the scene may still grow
 

@@ -269,7 +269,7 @@ std::vector<std::string> Solver::diagnostics() const {
   if (scene_.patch_count() > 0 && !any_emitter(scene_)) all.push_back(no_emitter);
   if (!solution_) return all;
   const Inspection& inspection = solution_->inspection;
-  const Stats known = stats();
+  const Stats known = counts();
   // Measured more finely by a solve, but then only where light goes.
   const double back_share = std::max(inspection.back_share, known.back_share);
   if (back_share > kDoubtfulBackShare)

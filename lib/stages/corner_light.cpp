@@ -143,4 +143,30 @@ int32_t CornerSampler::add_within(NodeId id) {
   return -1;
 }
 
+void drop_unnamed_corners(CornerLight& direct) {
+  constexpr int32_t unnamed = -1, named = -2;
+  std::vector<int32_t> number(direct.corner_count(), unnamed);
+  for (const auto& corners : direct.of_leaf)
+    for (int32_t corner : corners)
+      if (corner >= 0) number[corner] = named;
+  size_t kept = 0, links = 0;
+  for (size_t k = 0; k < number.size(); ++k) {
+    if (number[k] == unnamed) continue;
+    const uint32_t begin = direct.first[k], end = direct.first[k + 1];
+    std::copy(direct.links.begin() + begin, direct.links.begin() + end,
+              direct.links.begin() + static_cast<std::ptrdiff_t>(links));
+    direct.first[kept] = static_cast<uint32_t>(links);
+    links += end - begin;
+    number[k] = static_cast<int32_t>(kept++);
+  }
+  direct.first[kept] = static_cast<uint32_t>(links);
+  direct.first.resize(kept + 1);
+  direct.links.resize(links);
+  direct.first.shrink_to_fit();
+  direct.links.shrink_to_fit();
+  for (auto& corners : direct.of_leaf)
+    for (int32_t& corner : corners)
+      if (corner >= 0) corner = number[corner];
+}
+
 }  // namespace hrad

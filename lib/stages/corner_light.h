@@ -51,4 +51,7 @@ class CornerSampler {
   double reached_ = 0;  // share of all sampling that is done, guessed
 };
 
+// Takes out the corners that no leaf names: those that only showed that nothing need be divided.
+void drop_unnamed_corners(CornerLight& direct);
+
 }  // namespace hrad

@@ -1,46 +1,100 @@
-// The sparse product, node by node. Floor 7 (stages).
+// The sparse product, block by block of receivers. Floor 7 (stages).
 #include "stages/gather.h"
 
 #include <algorithm>
 
+#include "stages/gather_kernel.h"
+
 namespace hrad {
 namespace {
 
-constexpr int64_t nodes_of_a_task = 2048;
+constexpr int64_t items_of_a_task = 2048;
 constexpr int most_bands = 16;
 
-// Bands: their number where it is known at compile time, 0 otherwise.
-template <int Bands>
-void gather_run(Span<const Link> links, const float* radiosity, int bands_at_run_time,
-                float* gathered) {
-  const int bands = Bands ? Bands : bands_at_run_time;
-  double sum[Bands ? Bands : most_bands] = {};
-  for (const Link& link : links) {
-    const float* source = radiosity + static_cast<size_t>(link.source) * bands;
-    for (int band = 0; band < bands; ++band)
-      sum[band] += static_cast<double>(link.weight) * source[band];
-  }
-  for (int band = 0; band < bands; ++band) gathered[band] = static_cast<float>(sum[band]);
-}
-
 template <class Body>
-void for_each_run(int64_t count, ThreadTeam& team, const Body& body) {
-  team.for_each((count + nodes_of_a_task - 1) / nodes_of_a_task, [&](int64_t task, int) {
-    const int64_t end = std::min(count, (task + 1) * nodes_of_a_task);
-    for (int64_t k = task * nodes_of_a_task; k < end; ++k) body(static_cast<size_t>(k));
+void for_each_part(size_t count, ThreadTeam& team, const Body& body) {
+  const int64_t all = static_cast<int64_t>(count);
+  team.for_each((all + items_of_a_task - 1) / items_of_a_task, [&](int64_t task, int) {
+    body(static_cast<size_t>(task * items_of_a_task),
+         static_cast<size_t>(std::min(all, (task + 1) * items_of_a_task)));
   });
 }
 
+bool by_lanes(int bands) { return bands >= 2 && bands <= lanes_of_a_source; }
+
+// Any number of bands.
 void gather_run(Span<const Link> links, const State& state, float* out) {
-  if (state.bands == 3)
-    gather_run<3>(links, state.radiosity.data(), 3, out);
-  else if (state.bands == 1)
-    gather_run<1>(links, state.radiosity.data(), 1, out);
-  else
-    gather_run<0>(links, state.radiosity.data(), state.bands, out);
+  double sum[most_bands] = {};
+  for (const Link& link : links) {
+    const float* source = &state.radiosity[static_cast<size_t>(link.source) * state.bands];
+    for (int band = 0; band < state.bands; ++band)
+      sum[band] += static_cast<double>(link.weight) * source[band];
+  }
+  for (int band = 0; band < state.bands; ++band) out[band] = static_cast<float>(sum[band]);
+}
+
+void gather_runs(const State& state, const GatherSpace& space, const Link* links,
+                 const uint32_t* first, size_t runs, uint32_t end, float* out) {
+  if (by_lanes(state.bands)) {
+    gather_runs_here()(links, first, runs, end, space.sources.data(), state.bands, out);
+    return;
+  }
+  for (size_t k = 0; k < runs; ++k) {
+    const uint32_t last = k + 1 < runs ? first[k + 1] : end;
+    gather_run({links + first[k], last - first[k]}, state,
+               out + k * static_cast<size_t>(state.bands));
+  }
+}
+
+// Light is linear between the corners of a leaf: its mean is theirs. Bands: their number where it
+// is known at compile time, 0 otherwise.
+template <int Bands>
+void add_means_of_corners(const State& state, const std::vector<float>& at_corners, size_t node,
+                          size_t count, float* out) {
+  const int bands = Bands ? Bands : state.bands;
+  for (size_t k = 0; k < count; ++k, out += bands) {
+    const auto& corner = state.direct.of_leaf[node + k];
+    const float* value[3];
+    int known = 0;
+    for (int32_t number : corner)
+      if (number >= 0) value[known++] = &at_corners[static_cast<size_t>(number) * bands];
+    if (known == 0) continue;
+    for (int b = 0; b < bands; ++b) {
+      double sum = 0;
+      for (int c = 0; c < known; ++c) sum += value[c][b];
+      out[b] += static_cast<float>(sum / known);
+    }
+  }
+}
+
+void lay_out_sources(const State& state, ThreadTeam& team, GatherSpace& space) {
+  if (!by_lanes(state.bands)) return;
+  const size_t bands = static_cast<size_t>(state.bands), nodes = state.forest.nodes.size();
+  space.sources.resize(nodes * lanes_of_a_source);
+  for_each_part(nodes, team, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k)
+      for (size_t b = 0; b < bands; ++b)
+        space.sources[k * lanes_of_a_source + b] = state.radiosity[k * bands + b];
+  });
+}
+
+void gather_corners(const State& state, ThreadTeam& team, GatherSpace& space) {
+  const CornerLight& direct = state.direct;
+  const size_t bands = static_cast<size_t>(state.bands);
+  space.at_corners.resize(direct.corner_count() * bands);
+  for_each_part(direct.corner_count(), team, [&](size_t begin, size_t end) {
+    gather_runs(state, space, direct.links.data(), &direct.first[begin], end - begin,
+                direct.first[end], &space.at_corners[begin * bands]);
+  });
 }
 
 }  // namespace
+
+int64_t bytes_of_gather_space(const State& state) {
+  const size_t sources = by_lanes(state.bands) ? state.forest.nodes.size() * lanes_of_a_source : 0;
+  const size_t corners = state.direct.corner_count() * static_cast<size_t>(state.bands);
+  return static_cast<int64_t>((sources + corners) * sizeof(float));
+}
 
 void gather_corner(const State& state, size_t corner, float* irradiance) {
   const CornerLight& direct = state.direct;
@@ -49,19 +103,27 @@ void gather_corner(const State& state, size_t corner, float* irradiance) {
              state, irradiance);
 }
 
-void gather(State& state, ThreadTeam& team) {
+void gather_links(const State& state, NodeId node, float* irradiance) {
+  gather_run(state.links[node].links(), state, irradiance);
+}
+
+void gather(State& state, ThreadTeam& team, GatherSpace& space) {
+  lay_out_sources(state, team, space);
+  gather_corners(state, team, space);
   const size_t bands = static_cast<size_t>(state.bands);
-  const size_t corners = state.direct.corner_count();
-  std::vector<float> at_corners(corners * bands);
-  for_each_run(static_cast<int64_t>(corners), team,
-               [&](size_t k) { gather_corner(state, k, &at_corners[k * bands]); });
-  for_each_run(static_cast<int64_t>(state.forest.nodes.size()), team, [&](size_t k) {
-    gather_run(state.links[k].links(), state, &state.gathered[k * bands]);
-    // Light is linear between the corners of a leaf: its mean is theirs.
-    for (int b = 0; b < state.bands && corners > 0; ++b)
-      state.gathered[k * bands + b] += static_cast<float>(
-          mean_of_corners(state.direct, at_corners, static_cast<NodeId>(k), b, state.bands));
+  team.for_each(static_cast<int64_t>(state.links.block_count()), [&](int64_t task, int) {
+    const LinkTable::Block block = state.links.block(static_cast<size_t>(task));
+    float* const out = &state.irradiance[block.receiver * bands];
+    gather_runs(state, space, block.links, block.first, block.receivers, block.end, out);
+    if (state.direct.corner_count() == 0) return;
+    const auto add = state.bands == 3 ? add_means_of_corners<3> : add_means_of_corners<0>;
+    add(state, space.at_corners, block.receiver, block.receivers, out);
   });
+}
+
+void gather(State& state, ThreadTeam& team) {
+  GatherSpace space;
+  gather(state, team, space);
 }
 
 }  // namespace hrad

@@ -2,14 +2,29 @@
 // product over frozen links. Floor 7 (stages).
 #pragma once
 
+#include <vector>
+
 #include "stages/state.h"
 
 namespace hrad {
 
+// What gathering needs beside the state, to be kept from sweep to sweep.
+struct GatherSpace {
+  std::vector<float> sources;     // radiosity as the inner loop reads it
+  std::vector<float> at_corners;  // irradiance at corners, straight from bright emitters
+};
+
+int64_t bytes_of_gather_space(const State& state);
+
 // Irradiance at a corner, straight from bright emitters: bands values.
 void gather_corner(const State& state, size_t corner, float* irradiance);
 
-// state.gathered = links x state.radiosity, in double precision and in the order of each run.
+// Irradiance over a node's own links alone, without what its corners have: bands values.
+void gather_links(const State& state, NodeId node, float* irradiance);
+
+// state.irradiance = links x state.radiosity, and at leaves the mean of their corners, for
+// push_pull() to spread: in double precision and in the order of each run.
+void gather(State& state, ThreadTeam& team, GatherSpace& space);
 void gather(State& state, ThreadTeam& team);
 
 }  // namespace hrad

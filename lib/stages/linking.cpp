@@ -105,7 +105,7 @@ class PairLinker {
 
   // Sorts the found links to their receivers: for each the sources in ascending order.
   LinkTable collect() {
-    LinkTable table(found_.size());
+    LinkTable table;
     std::vector<std::vector<Link>> earlier(found_.size());
     std::vector<int32_t> counts(found_.size(), 0);
     for (const auto& list : found_)
@@ -118,10 +118,11 @@ class PairLinker {
         earlier[p].push_back({r.other, r.to_this});
         earlier[r.other].push_back({static_cast<NodeId>(p), r.to_other});
       }
-      table[p].assign(earlier[p]);
+      table.append(earlier[p]);
       std::vector<Link>().swap(earlier[p]);
       std::vector<Reciprocal>().swap(found_[p]);
     }
+    table.shrink_to_fit();
     return table;
   }
 

@@ -1,6 +1,7 @@
 // Tasks, passes and the numbering of new elements. Floor 7 (stages).
 #include "stages/refine.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -33,12 +34,13 @@ std::vector<int64_t> subtree_links(const State& state) {
 int64_t bytes_of(const SubtreeResult& result) {
   size_t bytes = result.nodes.size() * sizeof(SubtreeNode);
   for (const SubtreeNode& node : result.nodes)
-    bytes += (static_cast<size_t>(node.run.count()) + node.arriving.size()) * sizeof(Link);
+    bytes += (node.run.size() + node.arriving.size()) * sizeof(Link);
   return static_cast<int64_t>(bytes);
 }
 
-// Gives the new elements of a task their numbers and puts the runs of links in place.
-void store(State& state, SubtreeResult& result, std::vector<Task>& next) {
+// Gives the new elements of a task their numbers; new_links: of all its elements.
+void store(State& state, SubtreeResult& result, std::vector<LinkTable::NewRun>& new_links,
+           std::vector<Task>& next) {
   Forest& forest = state.forest;
   std::vector<NodeId> id(result.nodes.size());
   for (size_t at = 0; at < result.nodes.size(); ++at) {
@@ -51,15 +53,13 @@ void store(State& state, SubtreeResult& result, std::vector<Task>& next) {
       made.parent = id[node.parent];
       made.first_child = -1;
       forest.nodes.push_back(made);
-      state.links.emplace_back();
       const size_t from = static_cast<size_t>(made.parent) * state.bands;
       for (int band = 0; band < state.bands; ++band) {
         state.radiosity.push_back(state.radiosity[from + band]);
         state.irradiance.push_back(state.irradiance[from + band]);
-        state.gathered.push_back(0);
       }
     }
-    if (!(result.handed_on && at > 0)) state.links[id[at]] = std::move(node.run);
+    if (!(result.handed_on && at > 0)) new_links.push_back({id[at], node.run});
   }
   for (size_t at = 0; at < result.nodes.size(); ++at) {
     const SubtreeNode& node = result.nodes[at];
@@ -104,19 +104,32 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
         });
     if (!going_on) return false;
     std::vector<Task> next;
+    std::vector<LinkTable::NewRun> new_links;
+    int64_t links = 0;
     for (SubtreeResult& result : results) {
       state.rays += result.rays;
-      store(state, result, next);
+      store(state, result, new_links, next);
+      for (const SubtreeNode& node : result.nodes) links += static_cast<int64_t>(node.run.size());
     }
+    // In two places for a while, though old ones go as new ones come.
+    memory.take(
+        std::max<int64_t>(0, links - state.links.link_count()) * static_cast<int64_t>(sizeof(Link)),
+        "refined links");
+    state.links.resize(state.forest.nodes.size());
+    state.links.replace(std::move(new_links));
+    shrink_to_fit(state);
     memory.settle();
     finished += static_cast<int64_t>(tasks.size());
     tasks = std::move(next);
   }
   pull_exposure(state.forest);
   // What turned out to be sealed all over receives nothing.
+  std::vector<LinkTable::NewRun> sealed;
   for (size_t k = 0; k < state.forest.nodes.size(); ++k)
-    if (state.forest.nodes[k].exposed <= 0 && !state.forest.is_leaf(static_cast<NodeId>(k)))
-      state.links[k].assign({});
+    if (state.forest.nodes[k].exposed <= 0 && !state.forest.is_leaf(static_cast<NodeId>(k)) &&
+        state.links[k].count() > 0)
+      sealed.push_back({static_cast<NodeId>(k), {}});
+  state.links.replace(std::move(sealed));
   return true;
 }
 

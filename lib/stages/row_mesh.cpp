@@ -258,15 +258,19 @@ bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& ne
   }
   if (!sample_corners()) return false;
   measure_exposure(end);
+  std::vector<LinkTable::NewRun> dropped;
   for (size_t k = 0; k < divide.size(); ++k) {
     if (!divide[k]) continue;
     const NodeId cell = state_.cells[k];
-    state_.links[cell].assign({});
+    dropped.push_back({cell, {}});
     for (int child = 0; child < 4; ++child)
       new_cells.push_back(forest_.nodes[cell].first_child + child);
   }
+  std::sort(new_cells.begin(), new_cells.end());
   cells.insert(cells.end(), new_cells.begin(), new_cells.end());
+  std::sort(cells.begin(), cells.end());
   state_.cells.swap(cells);
+  state_.links.replace(std::move(dropped));
   name_corners();
   return true;
 }

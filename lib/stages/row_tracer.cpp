@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/frame.h"
 #include "base/low_discrepancy.h"
@@ -13,6 +14,8 @@ namespace hrad {
 namespace {
 
 constexpr int64_t rows_of_a_task = 32;
+// Put in place together. Few, so that little stands beside the table.
+constexpr int64_t rows_of_a_batch = 8192;
 
 // Share of an emitter's light that corners bring to a point of a leaf: what is left comes by rays.
 double direct_share(const State& state, const Emitters& emitters, int32_t emitter, NodeId leaf,
@@ -106,29 +109,40 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
                 const std::vector<int>& rays_of_cell, StageMemory& memory) {
   const Forest& forest = state.forest;
   const int64_t count = static_cast<int64_t>(cells.size());
-  const int64_t tasks = (count + rows_of_a_task - 1) / rows_of_a_task;
-  std::vector<int64_t> rays(static_cast<size_t>(tasks), 0);
-  const bool going_on = tools.team.for_each(
-      tasks,
-      [&](int64_t task, int) {
-        RowTracer tracer(state, tools, settings, emitters);
-        std::vector<Link> links;
-        int64_t bytes = 0;
-        for (int64_t k = task * rows_of_a_task; k < std::min(count, (task + 1) * rows_of_a_task);
-             ++k) {
-          links.clear();
-          if (forest.nodes[cells[k]].exposed > 0) tracer.trace(cells[k], rays_of_cell[k], links);
-          state.links[cells[k]].assign({links.data(), links.size()});
-          bytes += static_cast<int64_t>(links.size() * sizeof(Link));
-        }
-        rays[task] = tracer.rays;
-        memory.take(bytes, "rows of rays");
-      },
-      [&](int64_t done) {
-        return tools.progress(static_cast<double>(done) / static_cast<double>(tasks));
-      });
-  for (int64_t r : rays) state.rays += r;
-  if (going_on) memory.settle();
+  bool going_on = true;
+  for (int64_t first = 0; first < count && going_on; first += rows_of_a_batch) {
+    const int64_t end = std::min(count, first + rows_of_a_batch);
+    const int64_t tasks = (end - first + rows_of_a_task - 1) / rows_of_a_task;
+    std::vector<int64_t> rays(static_cast<size_t>(tasks), 0);
+    std::vector<std::vector<Link>> rows(static_cast<size_t>(end - first));
+    going_on = tools.team.for_each(
+        tasks,
+        [&](int64_t task, int) {
+          RowTracer tracer(state, tools, settings, emitters);
+          std::vector<Link> links;
+          int64_t bytes = 0;
+          const int64_t from = first + task * rows_of_a_task;
+          for (int64_t k = from; k < std::min(end, from + rows_of_a_task); ++k) {
+            links.clear();
+            if (forest.nodes[cells[k]].exposed > 0) tracer.trace(cells[k], rays_of_cell[k], links);
+            rows[k - first].assign(links.begin(), links.end());
+            bytes += static_cast<int64_t>(links.size() * sizeof(Link));
+          }
+          rays[task] = tracer.rays;
+          memory.take(2 * bytes, "rows of rays");  // in two places for a while
+        },
+        [&](int64_t done) {
+          return tools.progress(
+              (static_cast<double>(first) + static_cast<double>(done * rows_of_a_task)) /
+              static_cast<double>(count + rows_of_a_task));
+        });
+    for (int64_t r : rays) state.rays += r;
+    if (!going_on) break;
+    std::vector<LinkTable::NewRun> runs;
+    for (int64_t k = first; k < end; ++k) runs.push_back({cells[k], rows[k - first]});
+    state.links.replace(std::move(runs));
+    memory.settle();
+  }
   return going_on;
 }
 

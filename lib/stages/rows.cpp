@@ -34,8 +34,9 @@ StageTools part_of(const StageTools& tools, double from, double to) {
 
 Brightness light_of_pilot_rows(State& state, ThreadTeam& team) {
   reset_to_emission(state);
+  GatherSpace space;
   for (int k = 0; k < pilot_sweeps; ++k) {
-    gather(state, team);
+    gather(state, team, space);
     push_pull(state, team);
   }
   return measure_brightness(state, team);
@@ -56,7 +57,7 @@ std::vector<int> rays_by_area(const State& state, const RowSettings& settings,
 }
 
 // Variance of what one ray of a row brings.
-double variance_of(const LinkRun& row, const Brightness& light) {
+double variance_of(LinkRun row, const Brightness& light) {
   double mean = 0, square = 0;
   for (const Link& link : row.links()) {
     const double weight = link.weight, brightness = light.of_node[link.source];
@@ -122,7 +123,9 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   if (!trace_rows(state, part_of(tools, 0.6, 1), settings, emitters, state.cells, rays, memory))
     return false;
   state.direct.place = std::vector<Vec3>();
+  drop_unnamed_corners(state.direct);
   reset_to_emission(state);
+  shrink_to_fit(state);
   memory.settle();
   return true;
 }

@@ -10,7 +10,7 @@
 
 #include "base/memory_budget.h"
 #include "hierarchy/forest.h"
-#include "links/link.h"
+#include "links/link_table.h"
 #include "links/oracle.h"
 #include "machine/thread_team.h"
 #include "visibility/exposure.h"
@@ -53,8 +53,8 @@ struct State {
   std::vector<NodeId> cells;  // linking=rows: the elements that own rows, all surfaces covered
   CornerLight direct;
   std::vector<float> radiosity;   // per node and band: mean over the exposed part
-  std::vector<float> irradiance;  // likewise
-  std::vector<float> gathered;    // irradiance through the node's own links alone
+  std::vector<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
+                                  // links and corners brought
   int64_t rays = 0, pairs = 0;
   MemoryBudget memory;  // of scene, ray engine, elements and links
 };
@@ -74,6 +74,7 @@ struct StageTools {
 struct Brightness {
   std::vector<double> unit;    // per band: 1 / root mean square irradiance; 0 for a dark band
   std::vector<float> of_node;  // per node
+  std::vector<float> spread;   // per node: largest deviation of a leaf's from the node's
 };
 
 }  // namespace hrad

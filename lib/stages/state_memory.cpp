@@ -3,18 +3,37 @@
 
 namespace hrad {
 
-int64_t bytes_of(const State& state) {
-  size_t bytes =
-      state.forest.nodes.capacity() * sizeof(Node) + state.links.capacity() * sizeof(LinkRun) +
-      (state.radiosity.capacity() + state.irradiance.capacity() + state.gathered.capacity()) *
-          sizeof(float);
-  for (const LinkRun& run : state.links) bytes += static_cast<size_t>(run.count()) * sizeof(Link);
+namespace {
+
+template <class T>
+int64_t bytes_in(const std::vector<T>& array) {
+  return static_cast<int64_t>(array.capacity() * sizeof(T));
+}
+
+}  // namespace
+
+int64_t bytes_of_links(const State& state) {
+  return state.links.bytes_of_links() + bytes_in(state.direct.links);
+}
+
+int64_t bytes_of_nodes(const State& state) {
   const CornerLight& direct = state.direct;
-  bytes += state.cells.capacity() * sizeof(NodeId) +
-           direct.of_leaf.capacity() * sizeof direct.of_leaf[0] +
-           direct.first.capacity() * sizeof direct.first[0] +
-           direct.links.capacity() * sizeof(Link) + direct.place.capacity() * sizeof(Vec3);
-  return static_cast<int64_t>(bytes);
+  return bytes_in(state.forest.nodes) + bytes_in(state.radiosity) + bytes_in(state.irradiance) +
+         state.links.bytes() - state.links.bytes_of_links() + bytes_in(state.cells) +
+         bytes_in(direct.of_leaf) + bytes_in(direct.first) + bytes_in(direct.place);
+}
+
+int64_t bytes_of(const State& state) { return bytes_of_nodes(state) + bytes_of_links(state); }
+
+void shrink_to_fit(State& state) {
+  state.forest.nodes.shrink_to_fit();
+  state.radiosity.shrink_to_fit();
+  state.irradiance.shrink_to_fit();
+  state.cells.shrink_to_fit();
+  state.links.shrink_to_fit();
+  state.direct.of_leaf.shrink_to_fit();
+  state.direct.first.shrink_to_fit();
+  state.direct.links.shrink_to_fit();
 }
 
 void clear(State& state) {
@@ -23,8 +42,7 @@ void clear(State& state) {
   state.links = LinkTable();
   state.cells = std::vector<NodeId>();
   state.direct = CornerLight();
-  for (auto* light : {&state.radiosity, &state.irradiance, &state.gathered})
-    *light = std::vector<float>();
+  for (auto* light : {&state.radiosity, &state.irradiance}) *light = std::vector<float>();
   state.memory.take(bytes_of(state) - before, "");
 }
 

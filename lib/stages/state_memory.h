@@ -7,8 +7,14 @@
 
 namespace hrad {
 
-// Bytes of elements, of their light and of their links.
+// Bytes of links; of all else that grows with elements and their corners: these, the light on them
+// and which links are whose; and of both together.
+int64_t bytes_of_links(const State& state);
+int64_t bytes_of_nodes(const State& state);
 int64_t bytes_of(const State& state);
+
+// Gives back what arrays hold beyond their size, at the end of a stage that made them grow.
+void shrink_to_fit(State& state);
 
 // Back to the patches alone, and their memory.
 void clear(State& state);

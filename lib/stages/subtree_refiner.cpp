@@ -33,7 +33,7 @@ SubtreeResult SubtreeRefiner::refine(NodeId root, Span<const Link> arriving, boo
     if (result_.handed_on && at > 0)
       result_.nodes[at].arriving = std::move(work_[at].out);
     else
-      result_.nodes[at].run.assign(work_[at].out);
+      result_.nodes[at].run.assign(work_[at].out.begin(), work_[at].out.end());
   }
   result_.rays = sampler_.rays() - rays_before;
   return std::move(result_);
@@ -87,7 +87,7 @@ LinkLoad SubtreeRefiner::load_of(int32_t at, const Link& link, double source_are
   LinkLoad load;
   load.weight = link.weight;
   load.brightness = brightness_.of_node[link.source];
-  load.source_spread = source.spread;
+  load.source_spread = brightness_.spread[link.source];
   load.receiver_area = forest.area(place);
   load.patch_area = forest.surfaces[place.surface].area;
   load.source_area = source_area;

@@ -13,7 +13,7 @@ struct SubtreeNode {
   NodeId old_id = -1;          // -1: new
   int32_t parent = -1;         // index into SubtreeResult::nodes
   int32_t first_child = -1;    // likewise
-  LinkRun run;                 // its links after the round
+  std::vector<Link> run;       // its links after the round
   std::vector<Link> arriving;  // for a child handed on: links that came down to it
 };
 

@@ -19,38 +19,74 @@ void for_each_surface(const State& state, ThreadTeam& team, Body&& body) {
   });
 }
 
-void push_pull_below(State& state, NodeId id, const double* emission, const double* reflectance,
-                     const double* from_above) {
+// Per surface one row of `bands` sums, made by row_of(root, row), then added in key order: the same
+// bits however many threads.
+template <class RowOf>
+std::vector<double> surface_sums(const State& state, ThreadTeam& team, RowOf&& row_of) {
   const int bands = state.bands;
-  const Node& node = state.forest.nodes[id];
-  const size_t at = static_cast<size_t>(id) * bands;
-  double down[most_bands];
-  for (int b = 0; b < bands; ++b) down[b] = from_above[b] + state.gathered[at + b];
-  if (node.first_child < 0) {
-    for (int b = 0; b < bands; ++b) {
-      const double irradiance = node.exposed > 0 ? down[b] : 0;
-      state.irradiance[at + b] = static_cast<float>(irradiance);
-      state.radiosity[at + b] = static_cast<float>(emission[b] + reflectance[b] * irradiance);
+  std::vector<double> rows(static_cast<size_t>(state.forest.surface_count()) * bands, 0.0);
+  for_each_surface(state, team,
+                   [&](NodeId root) { row_of(root, &rows[static_cast<size_t>(root) * bands]); });
+  std::vector<double> total(bands, 0.0);
+  for (size_t k = 0; k < rows.size();)
+    for (int b = 0; b < bands; ++b) total[b] += rows[k++];
+  return total;
+}
+
+// Push and pull below one root. Bands: their number where it is known at compile time, 0 otherwise.
+template <int Bands>
+struct PushPull {
+  static constexpr int room = Bands ? Bands : most_bands;
+  State& state;
+  const double *emission, *reflectance;
+  const int bands = Bands ? Bands : state.bands;
+  double transported[room] = {};
+
+  void go(NodeId id, double area, const double* from_above) {
+    const Node& node = state.forest.nodes[id];
+    float* const own_irradiance = &state.irradiance[static_cast<size_t>(id) * bands];
+    float* const own_radiosity = &state.radiosity[static_cast<size_t>(id) * bands];
+    double down[room] = {};
+    for (int b = 0; b < bands; ++b) down[b] = from_above[b] + own_irradiance[b];
+    if (node.first_child < 0) {
+      const double exposed_area = area * node.exposed;
+      for (int b = 0; b < bands; ++b) {
+        const double irradiance = node.exposed > 0 ? down[b] : 0;
+        own_irradiance[b] = static_cast<float>(irradiance);
+        own_radiosity[b] = static_cast<float>(emission[b] + reflectance[b] * irradiance);
+        transported[b] += exposed_area * own_irradiance[b];
+      }
+      return;
     }
-    return;
-  }
-  double weight = 0;
-  double radiosity[most_bands] = {}, irradiance[most_bands] = {};
-  for (int child = 0; child < 4; ++child) {
-    const NodeId below = node.first_child + child;
-    push_pull_below(state, below, emission, reflectance, down);
-    const double exposed = state.forest.nodes[below].exposed;
-    const size_t from = static_cast<size_t>(below) * bands;
-    weight += exposed;
+    double weight = 0, radiosity[room] = {}, irradiance[room] = {};
+    for (NodeId below = node.first_child; below < node.first_child + 4; ++below) {
+      go(below, area / 4, down);
+      const double exposed = state.forest.nodes[below].exposed;
+      const size_t from = static_cast<size_t>(below) * bands;
+      weight += exposed;
+      for (int b = 0; b < bands; ++b) {
+        radiosity[b] += exposed * state.radiosity[from + b];
+        irradiance[b] += exposed * state.irradiance[from + b];
+      }
+    }
     for (int b = 0; b < bands; ++b) {
-      radiosity[b] += exposed * state.radiosity[from + b];
-      irradiance[b] += exposed * state.irradiance[from + b];
+      own_radiosity[b] = static_cast<float>(weight > 0 ? radiosity[b] / weight : emission[b]);
+      own_irradiance[b] = static_cast<float>(weight > 0 ? irradiance[b] / weight : 0);
     }
   }
-  for (int b = 0; b < bands; ++b) {
-    state.radiosity[at + b] = static_cast<float>(weight > 0 ? radiosity[b] / weight : emission[b]);
-    state.irradiance[at + b] = static_cast<float>(weight > 0 ? irradiance[b] / weight : 0);
-  }
+};
+
+template <int Bands>
+std::vector<double> push_pull_all(State& state, ThreadTeam& team) {
+  const Scene& scene = *state.forest.scene;
+  const double nothing[most_bands] = {};
+  return surface_sums(state, team, [&](NodeId root, double* row) {
+    const Surface& surface = state.forest.surfaces[root];
+    const size_t patch = static_cast<size_t>(surface.patch) * state.bands;
+    PushPull<Bands> below{state, &scene.emission[patch], &scene.reflectance[patch]};
+    below.go(root, surface.area, nothing);
+    for (int b = 0; b < state.bands; ++b) row[b] = below.transported[b];
+  });
 }
 
 // The sum over the leaves below of f(node id, exposed area), in key order.
@@ -64,54 +100,38 @@ void visit_leaves(const Forest& forest, NodeId id, F&& f) {
   for (int child = 0; child < 4; ++child) visit_leaves(forest, node.first_child + child, f);
 }
 
-// Per surface one row of `bands` sums, then added in key order: the same bits however many threads.
-template <class F>
-std::vector<double> surface_sums(const State& state, ThreadTeam& team, F&& add) {
-  const int bands = state.bands;
-  std::vector<double> rows(static_cast<size_t>(state.forest.surface_count()) * bands, 0.0);
-  for_each_surface(state, team, [&](NodeId root) {
-    double* row = &rows[static_cast<size_t>(root) * bands];
-    visit_leaves(state.forest, root, [&](NodeId id, double area) { add(id, area, row); });
-  });
-  std::vector<double> total(bands, 0.0);
-  for (size_t k = 0; k < rows.size(); ++k) total[k % bands] += rows[k];
-  return total;
-}
-
 float brightness_of(const float* radiosity, const std::vector<double>& unit) {
   double largest = 0;
   for (size_t b = 0; b < unit.size(); ++b) largest = std::max(largest, radiosity[b] * unit[b]);
   return static_cast<float>(largest);
 }
 
-float spread_below(State& state, NodeId id, const std::vector<double>& unit) {
-  Node& node = state.forest.nodes[id];
-  node.spread = 0;
+float spread_below(const State& state, NodeId id, const std::vector<double>& unit,
+                   std::vector<float>& spread) {
+  const Node& node = state.forest.nodes[id];
+  spread[id] = 0;
   if (node.first_child < 0) return 0;
   const int bands = state.bands;
   const float* mean = &state.radiosity[static_cast<size_t>(id) * bands];
   for (int child = 0; child < 4; ++child) {
     const NodeId below = node.first_child + child;
-    const float inner = spread_below(state, below, unit);
+    const float inner = spread_below(state, below, unit, spread);
     const float* value = &state.radiosity[static_cast<size_t>(below) * bands];
     double difference = 0;
     for (int b = 0; b < bands; ++b)
       difference =
           std::max(difference, std::fabs(static_cast<double>(value[b]) - mean[b]) * unit[b]);
-    node.spread = std::max(node.spread, static_cast<float>(difference + inner));
+    spread[id] = std::max(spread[id], static_cast<float>(difference + inner));
   }
-  return node.spread;
+  return spread[id];
 }
 
 }  // namespace
 
-void push_pull(State& state, ThreadTeam& team) {
-  const Scene& scene = *state.forest.scene;
-  const double nothing[most_bands] = {};
-  for_each_surface(state, team, [&](NodeId root) {
-    const size_t patch = static_cast<size_t>(state.forest.surfaces[root].patch) * state.bands;
-    push_pull_below(state, root, &scene.emission[patch], &scene.reflectance[patch], nothing);
-  });
+std::vector<double> push_pull(State& state, ThreadTeam& team) {
+  if (state.bands == 3) return push_pull_all<3>(state, team);
+  if (state.bands == 1) return push_pull_all<1>(state, team);
+  return push_pull_all<0>(state, team);
 }
 
 void pull_exposure(Forest& forest) {
@@ -128,7 +148,6 @@ void reset_to_emission(State& state) {
   const size_t count = state.forest.nodes.size();
   state.radiosity.resize(count * state.bands);
   state.irradiance.assign(count * state.bands, 0.0f);
-  state.gathered.assign(count * state.bands, 0.0f);
   for (size_t k = 0; k < count; ++k) {
     const int32_t patch = state.forest.surfaces[state.forest.nodes[k].surface].patch;
     for (int b = 0; b < state.bands; ++b)
@@ -137,26 +156,24 @@ void reset_to_emission(State& state) {
   }
 }
 
-std::vector<double> transported(const State& state, ThreadTeam& team) {
-  return surface_sums(state, team, [&](NodeId id, double area, double* row) {
-    const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
-    for (int b = 0; b < state.bands; ++b) row[b] += area * irradiance[b];
-  });
-}
-
-Brightness measure_brightness(State& state, ThreadTeam& team) {
+Brightness measure_brightness(const State& state, ThreadTeam& team) {
   const double area = state.forest.total_area();
   Brightness brightness;
-  brightness.unit = surface_sums(state, team, [&](NodeId id, double leaf_area, double* row) {
-    const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
-    for (int b = 0; b < state.bands; ++b)
-      row[b] += leaf_area * static_cast<double>(irradiance[b]) * irradiance[b];
+  brightness.unit = surface_sums(state, team, [&](NodeId root, double* row) {
+    visit_leaves(state.forest, root, [&](NodeId id, double leaf_area) {
+      const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
+      for (int b = 0; b < state.bands; ++b)
+        row[b] += leaf_area * static_cast<double>(irradiance[b]) * irradiance[b];
+    });
   });
   for (double& unit : brightness.unit) unit = unit > 0 ? 1 / std::sqrt(unit / area) : 0;
   brightness.of_node.resize(state.forest.nodes.size());
   for (size_t k = 0; k < brightness.of_node.size(); ++k)
     brightness.of_node[k] = brightness_of(&state.radiosity[k * state.bands], brightness.unit);
-  for_each_surface(state, team, [&](NodeId root) { spread_below(state, root, brightness.unit); });
+  brightness.spread.resize(state.forest.nodes.size());
+  for_each_surface(state, team, [&](NodeId root) {
+    spread_below(state, root, brightness.unit, brightness.spread);
+  });
   return brightness;
 }
 
@@ -179,6 +196,7 @@ Brightness expected_brightness(const State& state) {
   for (int b = 0; b < bands; ++b)
     if (power[b] > 0) brightness.unit[b] = (area - reflecting[b]) / power[b];
   brightness.of_node.resize(state.forest.nodes.size());
+  brightness.spread.assign(state.forest.nodes.size(), 0.0f);
   for (size_t k = 0; k < brightness.of_node.size(); ++k) {
     const int32_t patch = state.forest.surfaces[state.forest.nodes[k].surface].patch;
     double largest = 0;

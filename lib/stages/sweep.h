@@ -6,9 +6,11 @@
 
 namespace hrad {
 
-// From state.gathered makes state.irradiance and state.radiosity of every node. Means are over the
-// exposed part; a node sealed all over has B = E and H = 0.
-void push_pull(State& state, ThreadTeam& team);
+// From what gather() left in state.irradiance makes that and state.radiosity of every node. Means
+// are over the exposed part; a node sealed all over has B = E and H = 0. Returns the radiosity
+// transported: irradiance times exposed area over all leaves, per band, W, added up per surface in
+// key order.
+std::vector<double> push_pull(State& state, ThreadTeam& team);
 
 // New elements know better than their parents what is sealed: these take the mean of their
 // children.
@@ -17,12 +19,8 @@ void pull_exposure(Forest& forest);
 // B = E, H = 0 everywhere: where every solve starts.
 void reset_to_emission(State& state);
 
-// The radiosity transported: irradiance times exposed area over all leaves, per band, W. Added up
-// per surface in key order.
-std::vector<double> transported(const State& state, ThreadTeam& team);
-
-// Units and brightness of the nodes, and Node::spread, from the present radiosity.
-Brightness measure_brightness(State& state, ThreadTeam& team);
+// Units, brightness and its spread, from the present radiosity.
+Brightness measure_brightness(const State& state, ThreadTeam& team);
 
 // Before there is any irradiance: emitters by emission, the rest by the scene's mean
 // interreflection.

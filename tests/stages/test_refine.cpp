@@ -88,7 +88,6 @@ void forests_are_well_formed() {
     CHECK_EQUAL(bench.state.links.size(), forest.nodes.size());
     CHECK_EQUAL(bench.state.radiosity.size(), forest.nodes.size() * 3);
     CHECK_EQUAL(bench.state.irradiance.size(), forest.nodes.size() * 3);
-    CHECK_EQUAL(bench.state.gathered.size(), forest.nodes.size() * 3);
     for (NodeId id = 0; id < count; ++id) {
       const Node& node = forest.nodes[id];
       CHECK((node.parent < 0) == (id < forest.surface_count()));
@@ -110,8 +109,8 @@ void weights_are_shares_of_the_view() {
   for (OracleKind kind : kinds) {
     Refined bench(builtin_scene("cornell"), kind, 3);
     int64_t links = 0;
-    for (const LinkRun& run : bench.state.links)
-      for (const Link& link : run.links()) {
+    for (size_t k = 0; k < bench.state.links.size(); ++k)
+      for (const Link& link : bench.state.links[k].links()) {
         CHECK(link.weight > 0 && link.weight <= 1);
         CHECK(link.source >= 0 && link.source < static_cast<NodeId>(bench.state.links.size()));
         ++links;
@@ -268,7 +267,7 @@ void add_weightless_links(State& state, NodeId receiver, int count) {
   const Span<const Link> old = state.links[receiver].links();
   std::vector<Link> links(old.begin(), old.end());
   links.resize(links.size() + static_cast<size_t>(count), Link{0, 0.0f});
-  state.links[receiver].assign(links);
+  state.links.replace({{receiver, links}});
 }
 
 // Many links that carry nothing make tasks that are cut into their children's, and change nothing
@@ -296,8 +295,8 @@ void cut_subtrees_keep_their_own_links() {
   add_weightless_links(bench.state, 0, 25000);
   bench.refine(settings(OracleKind::error, 0.2));
   int64_t weightless = 0;
-  for (const LinkRun& run : bench.state.links)
-    for (const Link& link : run.links()) weightless += link.weight == 0;
+  for (size_t k = 0; k < bench.state.links.size(); ++k)
+    for (const Link& link : bench.state.links[k].links()) weightless += link.weight == 0;
   CHECK_EQUAL(weightless, int64_t{25000});
 }
 

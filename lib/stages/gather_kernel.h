@@ -1,0 +1,35 @@
+// The sums of weight times radiosity over runs of links, the inner loop of gathering, compiled for
+// several instruction sets with the same bits. Floor 7 (stages).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "links/link.h"
+
+namespace hrad {
+
+constexpr int lanes_of_a_source = 4;
+
+// Run k holds the links from first[k] up to first[k + 1], the last one up to `end`. sources: four
+// values per node, on a border of 16 bytes, of which the first `bands` count (2 to 4). out: bands
+// values per run, each a sum in double precision in the order of its run.
+using GatherRuns = void (*)(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
+                            const float* sources, int bands, float* out);
+
+void gather_runs_sse2(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
+                      const float* sources, int bands, float* out);
+#ifdef HRAD_X86_KERNELS
+void gather_runs_avx2(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
+                      const float* sources, int bands, float* out);
+#endif
+
+// The widest that this processor has.
+inline GatherRuns gather_runs_here() {
+#ifdef HRAD_X86_KERNELS
+  if (__builtin_cpu_supports("avx2")) return gather_runs_avx2;
+#endif
+  return gather_runs_sse2;
+}
+
+}  // namespace hrad
