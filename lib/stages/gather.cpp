@@ -2,6 +2,7 @@
 #include "stages/gather.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "stages/gather_kernel.h"
 
@@ -70,11 +71,11 @@ void add_means_of_corners(const State& state, const std::vector<float>& at_corne
 void lay_out_sources(const State& state, ThreadTeam& team, GatherSpace& space) {
   if (!by_lanes(state.bands)) return;
   const size_t bands = static_cast<size_t>(state.bands), nodes = state.forest.nodes.size();
-  space.sources.resize(nodes * lanes_of_a_source);
+  space.sources.resize(nodes * bands + lanes_of_a_source);
   for_each_part(nodes, team, [&](size_t begin, size_t end) {
-    for (size_t k = begin; k < end; ++k)
-      for (size_t b = 0; b < bands; ++b)
-        space.sources[k * lanes_of_a_source + b] = state.radiosity[k * bands + b];
+    std::copy(state.radiosity.begin() + static_cast<std::ptrdiff_t>(begin * bands),
+              state.radiosity.begin() + static_cast<std::ptrdiff_t>(end * bands),
+              space.sources.begin() + static_cast<std::ptrdiff_t>(begin * bands));
   });
 }
 
@@ -91,8 +92,9 @@ void gather_corners(const State& state, ThreadTeam& team, GatherSpace& space) {
 }  // namespace
 
 int64_t bytes_of_gather_space(const State& state) {
-  const size_t sources = by_lanes(state.bands) ? state.forest.nodes.size() * lanes_of_a_source : 0;
-  const size_t corners = state.direct.corner_count() * static_cast<size_t>(state.bands);
+  const size_t bands = static_cast<size_t>(state.bands);
+  const size_t sources = by_lanes(state.bands) ? state.forest.nodes.size() * bands : 0;
+  const size_t corners = state.direct.corner_count() * bands;
   return static_cast<int64_t>((sources + corners) * sizeof(float));
 }
 

@@ -9,11 +9,12 @@
 
 namespace hrad {
 
+// A source is read four values at a time, the last one beyond its own.
 constexpr int lanes_of_a_source = 4;
 
-// Run k holds the links from first[k] up to first[k + 1], the last one up to `end`. sources: four
-// values per node, on a border of 16 bytes, of which the first `bands` count (2 to 4). out: bands
-// values per run, each a sum in double precision in the order of its run.
+// Run k holds the links from first[k] up to first[k + 1], the last one up to `end`. sources: bands
+// values per node (2 to 4 bands), and lanes_of_a_source more that don't count. out: bands values
+// per run, each a sum in double precision in the order of its run.
 using GatherRuns = void (*)(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
                             const float* sources, int bands, float* out);
 

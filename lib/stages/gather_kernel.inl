@@ -4,18 +4,41 @@
 using FourFloats = float __attribute__((vector_size(16)));
 using FourDoubles = double __attribute__((vector_size(32)));
 
+// Sources lie all over the memory: they are asked for so many links before they are needed.
+constexpr uint32_t links_ahead = 48;
+
+inline void widen(const float* from, FourDoubles& to) {
+#ifdef __AVX__
+  to = reinterpret_cast<FourDoubles>(_mm256_cvtps_pd(_mm_loadu_ps(from)));
+#else
+  FourFloats narrow;
+  std::memcpy(&narrow, from, sizeof narrow);
+  to = __builtin_convertvector(narrow, FourDoubles);
+#endif
+}
+
+template <int Bands, bool Ahead>
+inline void add_run(const Link* link, const Link* last, const float* sources, FourDoubles& sum) {
+  for (; link != last; ++link) {
+    if (Ahead)
+      __builtin_prefetch(sources + static_cast<size_t>(link[links_ahead].source) * Bands);
+    FourDoubles source;
+    widen(sources + static_cast<size_t>(link->source) * Bands, source);
+    const double weight = link->weight;
+    sum += weight * source;
+  }
+}
+
 template <int Bands>
 inline void gather_runs_of(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
                            const float* sources, float* out) {
-  const FourFloats* const four = reinterpret_cast<const FourFloats*>(sources);
   for (size_t k = 0; k < runs; ++k) {
-    const Link* link = links + first[k];
-    const Link* const last = links + (k + 1 < runs ? first[k + 1] : end);
+    const uint32_t next = k + 1 < runs ? first[k + 1] : end;
     FourDoubles sum = {};
-    for (; link != last; ++link) {
-      const double weight = link->weight;
-      sum += weight * __builtin_convertvector(four[static_cast<uint32_t>(link->source)], FourDoubles);
-    }
+    if (end - next >= links_ahead)
+      add_run<Bands, true>(links + first[k], links + next, sources, sum);
+    else
+      add_run<Bands, false>(links + first[k], links + next, sources, sum);
     for (int b = 0; b < Bands; ++b) out[k * Bands + b] = static_cast<float>(sum[b]);
   }
 }

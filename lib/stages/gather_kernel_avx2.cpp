@@ -1,4 +1,8 @@
 // The gathering loop for AVX2. Floor 7 (stages).
+#include <immintrin.h>
+
+#include <cstring>
+
 #include "stages/gather_kernel.h"
 
 namespace hrad {

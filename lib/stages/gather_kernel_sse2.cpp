@@ -1,4 +1,6 @@
-// The gathering loop for SSE2. Floor 7 (stages).
+// The gathering loop for SSE2, on other processors the generic form of the same. Floor 7 (stages).
+#include <cstring>
+
 #include "stages/gather_kernel.h"
 
 namespace hrad {
