@@ -101,7 +101,7 @@ class Solver::Run {
     solver_.stats_.error_estimate = -1;
     solver_.stats_.error_standard_error = 0;
     solution_.balance = PowerBalance{};
-    if (!sweep(solution_.sweeping_round)) return Status::stopped;
+    if (!sweep(solution_.sweeping_round) && solution_.sweeping) return Status::stopped;
     // Rays would take longer than the sweeps.
     solution_.measuring_due = true;
     clock_.report(1.0, solver_.stats_.iterations);
@@ -215,9 +215,8 @@ class Solver::Run {
     }
     solver_.stats_.seconds_iterative +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!going_on) return false;
-    solution_.sweeping = false;
-    return true;
+    solution_.sweeping = !solution_.converged && !out_of_sweeps();
+    return going_on;
   }
 
   // Measures the solution and makes it ready for queries.

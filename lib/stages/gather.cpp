@@ -37,7 +37,7 @@ void gather_run(Span<const Link> links, const State& state, float* out) {
 void gather_runs(const State& state, const GatherSpace& space, const Link* links,
                  const uint32_t* first, size_t runs, uint32_t end, float* out) {
   if (by_lanes(state.bands)) {
-    gather_runs_here()(links, first, runs, end, space.sources.data(), state.bands, out);
+    gather_kernels()[0](links, first, runs, end, space.sources.data(), state.bands, out);
     return;
   }
   for (size_t k = 0; k < runs; ++k) {

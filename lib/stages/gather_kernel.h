@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/span.h"
 #include "links/link.h"
 
 namespace hrad {
@@ -18,19 +19,12 @@ constexpr int lanes_of_a_source = 4;
 using GatherRuns = void (*)(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
                             const float* sources, int bands, float* out);
 
+// Those that this processor can run, the widest first.
+Span<const GatherRuns> gather_kernels();
+
 void gather_runs_sse2(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
                       const float* sources, int bands, float* out);
-#ifdef HRAD_X86_KERNELS
 void gather_runs_avx2(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
                       const float* sources, int bands, float* out);
-#endif
-
-// The widest that this processor has.
-inline GatherRuns gather_runs_here() {
-#ifdef HRAD_X86_KERNELS
-  if (__builtin_cpu_supports("avx2")) return gather_runs_avx2;
-#endif
-  return gather_runs_sse2;
-}
 
 }  // namespace hrad

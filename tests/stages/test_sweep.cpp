@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "stages/gather.h"
+#include "stages/gather_kernel.h"
 #include "stages/sweep.h"
 #include "support/workbench.h"
 #include "visibility/brute_force.h"
@@ -191,6 +192,34 @@ void gathering_is_the_product_of_links_and_radiosity() {
   }
 }
 
+// Runs around the length that the kernels look ahead, and empty ones, in every instruction set.
+void kernels_agree_to_the_bit() {
+  constexpr size_t nodes = 500, runs = 200;
+  std::vector<Link> links;
+  std::vector<uint32_t> first;
+  for (uint64_t k = 0; k < runs; ++k) {
+    first.push_back(static_cast<uint32_t>(links.size()));
+    for (uint64_t m = 0; m < mix(k, 1) % 70 && k % 5 != 0; ++m)
+      links.push_back({static_cast<NodeId>(mix(k, m, 2) % nodes),
+                       static_cast<float>(unit_interval(mix(k, m, 3)))});
+  }
+  links.push_back({nodes - 1, 0.5f});
+  for (int bands = 2; bands <= lanes_of_a_source; ++bands) {
+    std::vector<float> sources, narrow(runs * bands, -1.0f);
+    for (uint64_t k = 0; k < nodes * bands; ++k)
+      sources.push_back(static_cast<float>(unit_interval(mix(k, 4))));
+    sources.resize(sources.size() + lanes_of_a_source);
+    const uint32_t end = static_cast<uint32_t>(links.size());
+    gather_runs_sse2(links.data(), first.data(), runs, end, sources.data(), bands, narrow.data());
+    CHECK(narrow.front() == 0 && narrow.back() > 0);
+    for (GatherRuns kernel : gather_kernels()) {
+      std::vector<float> other(narrow.size(), -1.0f);
+      kernel(links.data(), first.data(), runs, end, sources.data(), bands, other.data());
+      CHECK(other == narrow);
+    }
+  }
+}
+
 // Two plates that see each other, F = 1/2 both ways: B = E + rho F B' has a solution by hand.
 void sweeps_reach_the_solution() {
   Scene scene;
@@ -317,6 +346,7 @@ int main() {
       HRAD_TEST(reset_leaves_emission_alone),
       HRAD_TEST(transported_light_is_that_of_the_leaves),
       HRAD_TEST(gathering_is_the_product_of_links_and_radiosity),
+      HRAD_TEST(kernels_agree_to_the_bit),
       HRAD_TEST(sweeps_reach_the_solution),
       HRAD_TEST(threads_change_no_bit),
       HRAD_TEST(brightness_is_in_units_of_the_irradiance),
