@@ -151,7 +151,8 @@ void compare(const std::string& scene, const Options& o) {
 
 void measure(const std::string& scene, const Options& o) {
   if (o.reference_seconds > 0)
-    in_child([&](Measurement&) { improve_reference(scene, joined(o.common, o.cases[0]), o); });
+    in_child<Measurement>(
+        [&](Measurement&) { improve_reference(scene, joined(o.common, o.cases[0]), o); });
   if (o.reference_only) return;
   const ReferencePlace place = place_of(scene, o);
   for (const Settings& one : o.cases) {

@@ -68,12 +68,14 @@ inline double worst_mismatch(const physics::ApiSolver& solver) {
   return worst;
 }
 
-// Runs work(result) in a child process and returns what it left in the result.
-inline Measurement in_child(const std::function<void(Measurement&)>& work) {
+// Runs work(result) in a child process and returns what it left in the result: plain values, with
+// `done` and `failure` as in Measurement.
+template <class Result = Measurement>
+Result in_child(const std::function<void(Result&)>& work) {
   void* shared =
-      mmap(nullptr, sizeof(Measurement), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+      mmap(nullptr, sizeof(Result), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) throw std::runtime_error("no shared memory");
-  Measurement& result = *new (shared) Measurement;
+  Result& result = *new (shared) Result;
   std::fflush(nullptr);
   const pid_t child = fork();
   if (child == 0) {
@@ -87,8 +89,8 @@ inline Measurement in_child(const std::function<void(Measurement&)>& work) {
   }
   int status = 0;
   const bool ended = child > 0 && waitpid(child, &status, 0) == child;
-  const Measurement copy = result;
-  munmap(shared, sizeof(Measurement));
+  const Result copy = result;
+  munmap(shared, sizeof(Result));
   if (!ended || !WIFEXITED(status)) throw std::runtime_error("the solving process died");
   if (!copy.done) throw std::runtime_error(copy.failure);
   return copy;
@@ -98,7 +100,7 @@ inline Measurement in_child(const std::function<void(Measurement&)>& work) {
 // the peak of memory is the solve's.
 inline Measurement solve_apart(const std::string& scene, const Settings& settings,
                                const ReferencePlace* place) {
-  return in_child([&](Measurement& result) {
+  return in_child<Measurement>([&](Measurement& result) {
     const auto solver = loaded(scene, settings);
     const double start = user_seconds();
     solver->solve();
