@@ -55,16 +55,17 @@ void add_means_of_corners(const State& state, const std::vector<float>& at_corne
   const int bands = Bands ? Bands : state.bands;
   for (size_t k = 0; k < count; ++k, out += bands) {
     const auto& corner = state.direct.of_leaf[node + k];
-    const float* value[3];
+    double sum[Bands ? Bands : most_bands] = {};
     int known = 0;
-    for (int32_t number : corner)
-      if (number >= 0) value[known++] = &at_corners[static_cast<size_t>(number) * bands];
-    if (known == 0) continue;
-    for (int b = 0; b < bands; ++b) {
-      double sum = 0;
-      for (int c = 0; c < known; ++c) sum += value[c][b];
-      out[b] += static_cast<float>(sum / known);
+    for (int32_t number : corner) {
+      if (number < 0) continue;
+      const float* value = &at_corners[static_cast<size_t>(number) * bands];
+      for (int b = 0; b < bands; ++b) sum[b] += value[b];
+      ++known;
     }
+    if (known == 0) continue;
+    const double share = 1.0 / known;
+    for (int b = 0; b < bands; ++b) out[b] += static_cast<float>(sum[b] * share);
   }
 }
 

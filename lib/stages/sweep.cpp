@@ -34,46 +34,55 @@ std::vector<double> surface_sums(const State& state, ThreadTeam& team, RowOf&& r
 }
 
 // Push and pull below one root. Bands: their number where it is known at compile time, 0 otherwise.
+// E and rho being the same all over a patch, B = E + rho H holds for means too: irradiance alone is
+// pulled.
 template <int Bands>
-struct PushPull {
-  static constexpr int room = Bands ? Bands : most_bands;
-  State& state;
-  const double *emission, *reflectance;
-  const int bands = Bands ? Bands : state.bands;
-  double transported[room] = {};
+class PushPull {
+ public:
+  PushPull(State& state, const double* emission, const double* reflectance)
+      : state_(state), emission_(emission), reflectance_(reflectance) {}
 
-  void go(NodeId id, double area, const double* from_above) {
-    const Node& node = state.forest.nodes[id];
-    float* const own_irradiance = &state.irradiance[static_cast<size_t>(id) * bands];
-    float* const own_radiosity = &state.radiosity[static_cast<size_t>(id) * bands];
-    double down[room] = {};
-    for (int b = 0; b < bands; ++b) down[b] = from_above[b] + own_irradiance[b];
+  // Adds irradiance times exposed share, and that share, as means over the node's area, to `sum`
+  // and `weight`.
+  void go(NodeId id, const double* from_above, double* sum, double* weight) {
+    const Node& node = state_.forest.nodes[id];
     if (node.first_child < 0) {
-      const double exposed_area = area * node.exposed;
-      for (int b = 0; b < bands; ++b) {
-        const double irradiance = node.exposed > 0 ? down[b] : 0;
-        own_irradiance[b] = static_cast<float>(irradiance);
-        own_radiosity[b] = static_cast<float>(emission[b] + reflectance[b] * irradiance);
-        transported[b] += exposed_area * own_irradiance[b];
-      }
+      double irradiance[room];
+      const float* own = &state_.irradiance[at(id)];
+      for (int b = 0; b < bands(); ++b)
+        irradiance[b] = node.exposed > 0 ? from_above[b] + own[b] : 0;
+      write(id, irradiance);
+      for (int b = 0; b < bands(); ++b) sum[b] += static_cast<double>(node.exposed) * own[b];
+      *weight += node.exposed;
       return;
     }
-    double weight = 0, radiosity[room] = {}, irradiance[room] = {};
-    for (NodeId below = node.first_child; below < node.first_child + 4; ++below) {
-      go(below, area / 4, down);
-      const double exposed = state.forest.nodes[below].exposed;
-      const size_t from = static_cast<size_t>(below) * bands;
-      weight += exposed;
-      for (int b = 0; b < bands; ++b) {
-        radiosity[b] += exposed * state.radiosity[from + b];
-        irradiance[b] += exposed * state.irradiance[from + b];
-      }
+    double down[room] = {}, below[room] = {}, exposed = 0;
+    for (int b = 0; b < bands(); ++b) down[b] = from_above[b] + state_.irradiance[at(id) + b];
+    for (NodeId child = node.first_child; child < node.first_child + 4; ++child)
+      go(child, down, below, &exposed);
+    for (int b = 0; b < bands(); ++b) {
+      sum[b] += below[b] / 4;
+      below[b] = exposed > 0 ? below[b] / exposed : 0;
     }
-    for (int b = 0; b < bands; ++b) {
-      own_radiosity[b] = static_cast<float>(weight > 0 ? radiosity[b] / weight : emission[b]);
-      own_irradiance[b] = static_cast<float>(weight > 0 ? irradiance[b] / weight : 0);
+    write(id, below);
+    *weight += exposed / 4;
+  }
+
+ private:
+  static constexpr int room = Bands ? Bands : most_bands;
+
+  int bands() const { return Bands ? Bands : state_.bands; }
+  size_t at(NodeId id) const { return static_cast<size_t>(id) * bands(); }
+  void write(NodeId id, const double* irradiance) {
+    for (int b = 0; b < bands(); ++b) {
+      state_.irradiance[at(id) + b] = static_cast<float>(irradiance[b]);
+      state_.radiosity[at(id) + b] =
+          static_cast<float>(emission_[b] + reflectance_[b] * irradiance[b]);
     }
   }
+
+  State& state_;
+  const double *emission_, *reflectance_;
 };
 
 template <int Bands>
@@ -83,9 +92,10 @@ std::vector<double> push_pull_all(State& state, ThreadTeam& team) {
   return surface_sums(state, team, [&](NodeId root, double* row) {
     const Surface& surface = state.forest.surfaces[root];
     const size_t patch = static_cast<size_t>(surface.patch) * state.bands;
-    PushPull<Bands> below{state, &scene.emission[patch], &scene.reflectance[patch]};
-    below.go(root, surface.area, nothing);
-    for (int b = 0; b < state.bands; ++b) row[b] = below.transported[b];
+    double weight = 0;
+    PushPull<Bands>(state, &scene.emission[patch], &scene.reflectance[patch])
+        .go(root, nothing, row, &weight);
+    for (int b = 0; b < state.bands; ++b) row[b] *= surface.area;
   });
 }
 
