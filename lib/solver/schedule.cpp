@@ -114,7 +114,7 @@ RowSettings rows_of(const Params& params, const Forest& forest, double distance,
 }
 
 double sweep_tolerance(const Params& params, int round) {
-  return round < first_rounds ? 1e-3 : std::min(1e-5, params.accuracy * 1e-2);
+  return round < first_rounds ? 1e-3 : std::min(1e-4, params.accuracy * 5e-3);
 }
 
 }  // namespace hrad
