@@ -30,6 +30,13 @@ inline bool share_plane(const Surface& a, const Surface& b) {
   return dot(a.normal, b.normal) > 1 - 1e-9;
 }
 
+// Where the direct light of a leaf is known (linking=rows).
+enum LightPoints : uint8_t {
+  at_corners,
+  half_way_to_the_middle,  // from the corners
+  at_own_points,           // of its exposed part
+};
+
 // An element. Its place in the patch is a triangle of the lattice that L subdivisions draw: with
 // the point of coordinates (i,j) at u = i/2^L, v = j/2^L, an upright one has the corners (i,j),
 // (i+1,j), (i,j+1), an inverted one (i+1,j+1), (i,j+1), (i+1,j). So a node needs no corners of its
@@ -41,7 +48,7 @@ struct Node {
   uint16_t i = 0, j = 0;
   uint8_t level = 0;
   uint8_t inverted = 0;
-  uint8_t half_way = 0;  // its corners' direct light is known half way to its middle
+  uint8_t light_points = 0;  // LightPoints
   uint8_t reserved = 0;
   float exposed = 1;  // share of the area that is not sealed (design: the exposure rule)
 };

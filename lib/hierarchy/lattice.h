@@ -29,4 +29,17 @@ inline void lattice_corners(const Node& place, LatticePoint corner[3]) {
   }
 }
 
+inline LatticePoint middle(LatticePoint a, LatticePoint b) {
+  return {(a.i + b.i) / 2, (a.j + b.j) / 2};
+}
+
+// Points half way from the corners to the middle, in the order of these.
+inline void half_way_points(const Node& place, LatticePoint point[3]) {
+  LatticePoint corner[3];
+  lattice_corners(place, corner);
+  const int32_t i = corner[0].i + corner[1].i + corner[2].i;
+  const int32_t j = corner[0].j + corner[1].j + corner[2].j;
+  for (int c = 0; c < 3; ++c) point[c] = {(3 * corner[c].i + i) / 6, (3 * corner[c].j + j) / 6};
+}
+
 }  // namespace hrad

@@ -1,29 +1,13 @@
-// Corner values: weighted means, then the edges with hanging corners. Floor 8 (solver).
+// What cells and leaves say about their corners. Floor 8 (solver).
 #include "solver/reconstruction.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "solver/corner_index.h"
 #include "stages/gather.h"
 
 namespace hrad {
 namespace {
-
-// Sets the corners that hang within the edge from a to b to the edge's own values.
-void straighten(const CornerIndex& index, int32_t surface, LatticePoint a, LatticePoint b,
-                int bands, std::vector<float>& value) {
-  if (((a.i + b.i) | (a.j + b.j)) & 1) return;
-  const LatticePoint middle{(a.i + b.i) / 2, (a.j + b.j) / 2};
-  const int32_t hanging = index.find(surface, middle);
-  if (hanging < 0) return;
-  const size_t from = static_cast<size_t>(index.find(surface, a)) * bands;
-  const size_t to = static_cast<size_t>(index.find(surface, b)) * bands;
-  for (int k = 0; k < bands; ++k)
-    value[static_cast<size_t>(hanging) * bands + k] = (value[from + k] + value[to + k]) / 2;
-  straighten(index, surface, a, middle, bands, value);
-  straighten(index, surface, middle, b, bands, value);
-}
 
 constexpr int most_bands = 16;
 
@@ -42,85 +26,61 @@ double even_light(const State& state, NodeId id, double* values) {
   return node.exposed / std::sqrt(state.forest.area(node));
 }
 
-// Irradiance at a corner. A sealed one has none of its own and takes what the others have.
+// What a leaf with points of its own says about its corners weighs less than what others know.
+constexpr double weight_of_own_points = 1e-3;
+
+// Where the three points of its own lie in a leaf, nullptr: it has none.
+const CornerLight::OwnPoint* own_points(const State& state, NodeId leaf) {
+  if (state.forest.nodes[leaf].light_points != at_own_points) return nullptr;
+  const CornerLight& direct = state.direct;
+  const int32_t first = direct.of_leaf[leaf][0];
+  const auto found = std::lower_bound(
+      direct.own.begin(), direct.own.end(), first,
+      [](const CornerLight::OwnPoint& p, int32_t number) { return p.number < number; });
+  return found != direct.own.end() && found->number == first ? &*found : nullptr;
+}
+
+// Weights of the values at three points of a leaf, for the plane through them at a corner.
+bool plane_weights(const CornerLight::OwnPoint* p, int corner, double weight[3]) {
+  const double x = corner == 1, y = corner == 2;
+  const double bx = p[1].x - p[0].x, by = p[1].y - p[0].y, cx = p[2].x - p[0].x,
+               cy = p[2].y - p[0].y;
+  const double determinant = bx * cy - by * cx;
+  if (!(std::fabs(determinant) > 1e-6)) return false;
+  weight[1] = ((x - p[0].x) * cy - (y - p[0].y) * cx) / determinant;
+  weight[2] = ((y - p[0].y) * bx - (x - p[0].x) * by) / determinant;
+  weight[0] = 1 - weight[1] - weight[2];
+  return true;
+}
+
+// Irradiance at a corner, and how much it weighs.
 double direct_light(const State& state, const std::vector<float>& at_corners, NodeId leaf,
                     int corner, double* values) {
   const CornerLight& direct = state.direct;
-  const int32_t number = direct.of_leaf[leaf][corner];
+  const auto& number = direct.of_leaf[leaf];
+  if (number[0] < 0) {
+    std::fill(values, values + state.bands, 0.0);
+    return 1e-12;
+  }
+  const uint8_t points = state.forest.nodes[leaf].light_points;
+  const CornerLight::OwnPoint* own = own_points(state, leaf);
+  double weight[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+  const bool plane = own && plane_weights(own, corner, weight);
   for (int b = 0; b < state.bands; ++b) {
-    const double mean = mean_of_corners(direct, at_corners, leaf, b, state.bands);
-    values[b] = number >= 0 ? at_corners[static_cast<size_t>(number) * state.bands + b] : mean;
-    // On from what is known half way.
-    if (state.forest.nodes[leaf].half_way)
-      values[b] = std::max(0.0, std::min(2 * mean, 2 * values[b] - mean));
+    const auto at = [&](int c) {
+      return static_cast<double>(at_corners[static_cast<size_t>(number[c]) * state.bands + b]);
+    };
+    const double mean = (at(0) + at(1) + at(2)) / 3;
+    if (own)
+      values[b] = plane ? weight[0] * at(0) + weight[1] * at(1) + weight[2] * at(2) : mean;
+    else if (points == half_way_to_the_middle)
+      values[b] = 2 * at(corner) - mean;
+    else
+      values[b] = at(corner);
+    values[b] = std::max(0.0, std::min(3 * mean, values[b]));
   }
-  return number >= 0 ? 1 : state.forest.nodes[leaf].exposed > 0 ? 1e-6 : 1e-12;
+  return own ? weight_of_own_points : 1;
 }
-
-}  // namespace
-
-LinearField::LinearField(const Forest& forest, int bands, const std::vector<NodeId>& elements,
-                         const Value& value_of)
-    : forest_(forest), bands_(bands), number_of_element_(forest.nodes.size(), -1) {
-  CornerIndex index(forest);
-  corner_.resize(elements.size());
-  for (size_t k = 0; k < elements.size(); ++k) {
-    const Node& element = forest.nodes[elements[k]];
-    number_of_element_[elements[k]] = static_cast<int32_t>(k);
-    LatticePoint corner[3];
-    lattice_corners(element, corner);
-    for (int c = 0; c < 3; ++c) corner_[k][c] = index.number(element.surface, corner[c]);
-  }
-  const size_t corners = static_cast<size_t>(index.count());
-  std::vector<double> sum(corners * bands, 0.0), weight(corners, 0.0);
-  double values[most_bands];
-  for (size_t k = 0; k < elements.size(); ++k)
-    for (int c = 0; c < 3; ++c) {
-      const double share = value_of(elements[k], c, values);
-      const size_t at = static_cast<size_t>(corner_[k][c]);
-      weight[at] += share;
-      for (int b = 0; b < bands; ++b) sum[at * bands + b] += share * values[b];
-    }
-  value_.resize(corners * bands);
-  for (size_t c = 0; c < corners; ++c)
-    for (int b = 0; b < bands; ++b)
-      value_[c * bands + b] =
-          static_cast<float>(weight[c] > 0 ? sum[c * bands + b] / weight[c] : 0.0);
-
-  // From the longest edges to the shortest: the ends of an edge are settled before what hangs in
-  // it.
-  std::vector<int32_t> order(elements.size());
-  for (size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int32_t>(k);
-  std::stable_sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
-    return forest.nodes[elements[a]].level < forest.nodes[elements[b]].level;
-  });
-  for (int32_t k : order) {
-    const Node& element = forest.nodes[elements[k]];
-    LatticePoint corner[3];
-    lattice_corners(element, corner);
-    for (int c = 0; c < 3; ++c)
-      straighten(index, element.surface, corner[c], corner[(c + 1) % 3], bands, value_);
-  }
-}
-
-void LinearField::corners(NodeId element, double* out) const {
-  const auto& corner = corner_numbers(element);
-  for (int c = 0; c < 3; ++c)
-    for (int b = 0; b < bands_; ++b)
-      out[c * bands_ + b] = value_[static_cast<size_t>(corner[c]) * bands_ + b];
-}
-
-void LinearField::add_at(NodeId element, double u, double v, double* out) const {
-  double x, y;
-  element_coordinates(forest_.nodes[element], u, v, &x, &y);
-  const auto& corner = corner_numbers(element);
-  const double weight[3] = {1 - x - y, x, y};
-  for (int b = 0; b < bands_; ++b)
-    for (int c = 0; c < 3; ++c)
-      out[b] += weight[c] * value_[static_cast<size_t>(corner[c]) * bands_ + b];
-}
-
-namespace {
 
 // Light that arrives evenly over cells is made linear on these first, then taken at the corners of
 // the leaves.
@@ -130,19 +90,37 @@ LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
   std::vector<float> at_corners(state.direct.corner_count() * bands);
   for (size_t k = 0; k < state.direct.corner_count(); ++k)
     gather_corner(state, k, &at_corners[k * bands]);
-  const auto even = [&](NodeId id, int, double* values) { return even_light(state, id, values); };
-  if (state.cells.empty()) return LinearField(forest, state.bands, leaves, even);
-  const LinearField on_cells(forest, state.bands, state.cells, even);
-  return LinearField(forest, state.bands, leaves, [&](NodeId leaf, int c, double* values) {
-    const double weight = direct_light(state, at_corners, leaf, c, values);
+  const auto even = [&](NodeId id, double* values) { return even_light(state, id, values); };
+  const auto even_at = [&](NodeId id, int, double* values) { return even(id, values); };
+  if (state.cells.empty())
+    return LinearField(forest, state.bands, leaves, LinearField::Known::over_elements, even_at,
+                       even);
+  const LinearField on_cells(forest, state.bands, state.cells, LinearField::Known::over_elements,
+                             even_at, even);
+  const auto add_from_cells = [&](NodeId leaf, int c, double* values) {
     NodeId cell = leaf;
     while (!on_cells.has(cell)) cell = forest.nodes[cell].parent;
     LatticePoint corner[3];
     lattice_corners(forest.nodes[leaf], corner);
     on_cells.add_at(cell, static_cast<double>(corner[c].i) / lattice_size,
                     static_cast<double>(corner[c].j) / lattice_size, values);
-    return weight;
-  });
+  };
+  return LinearField(
+      forest, state.bands, leaves, LinearField::Known::at_corners,
+      [&](NodeId leaf, int c, double* values) {
+        const double weight = direct_light(state, at_corners, leaf, c, values);
+        add_from_cells(leaf, c, values);
+        return weight;
+      },
+      [&](NodeId leaf, double* values) {
+        std::fill(values, values + bands, 0.0);
+        for (int c = 0; c < 3; ++c) add_from_cells(leaf, c, values);
+        float direct[most_bands];
+        gather_direct(state, leaf, direct);
+        for (size_t b = 0; b < bands; ++b) values[b] = values[b] / 3 + direct[b];
+        // The mean of a partly sealed leaf is not that of the three corners.
+        return forest.nodes[leaf].exposed < 1 ? 0.0 : 1.0;
+      });
 }
 
 }  // namespace

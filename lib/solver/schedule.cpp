@@ -32,11 +32,12 @@ constexpr double fall = 4;
 constexpr double row_accuracy = 0.02;
 constexpr double finest_of_rows = 0.004;
 constexpr int64_t most_of_fine_pairs = 200;
-constexpr double row_leg = 0.25;  // of the mean distance between surfaces
+// Of the mean distance between surfaces.
+constexpr double row_leg = 0.35, largest_row_leg = 0.45;
 constexpr double fewest_cells = 1000, cells_of_a_surface = 64, cells_of_a_scene = 2000;
-constexpr double row_variation = 0.03;
+constexpr double row_contrast = 0.03;
 constexpr double row_rays = 64, least_row_rays = 16, fewest_rays = 4;
-constexpr double direct_tolerance = 0.1, largest_tolerance = 0.2;
+constexpr double direct_tolerance = 0.1;  // at the most: what is coarser misses whole shadows
 constexpr double least_bright = 0.05;
 constexpr double least_cube = 1e-4;  // of the root of all area: cubes have names of limited length
 constexpr double least_cell_share = 1.0 / 256, least_element_share = 1.0 / (1 << 20);
@@ -93,7 +94,7 @@ bool by_rows(const Params& params, const Forest& forest, const Inspection& inspe
 
 RowSettings rows_of(const Params& params, const Forest& forest, double distance, double scale) {
   const double ratio = params.accuracy * scale / row_accuracy;
-  const double leg = distance * row_leg * std::sqrt(ratio);
+  const double leg = distance * std::min(row_leg * std::sqrt(ratio), largest_row_leg);
   RowSettings s;
   // Surfaces that all but touch must not make cells without number.
   const double area = forest.total_area();
@@ -101,10 +102,10 @@ RowSettings rows_of(const Params& params, const Forest& forest, double distance,
       cells_of_a_surface * static_cast<double>(forest.surface_count()) + cells_of_a_scene / ratio;
   s.cell_area = std::max(std::min(leg * leg / 2, area / fewest_cells), area / most_cells);
   s.least_cell_area = s.cell_area * least_cell_share;
-  s.cell_variation = row_variation * ratio;
+  s.contrast = row_contrast * ratio;
   s.rays_of_cell = static_cast<int>(std::ceil(row_rays / ratio));
   s.least_rays = static_cast<int>(std::ceil(std::max(fewest_rays, least_row_rays / ratio)));
-  s.tolerance = std::min(direct_tolerance * ratio, largest_tolerance);
+  s.tolerance = direct_tolerance * std::min(ratio, 1.0);
   s.shadow_noise = s.tolerance / 2;
   s.least_bright = least_bright;
   s.grid_size = std::max(distance / 2, least_cube * std::sqrt(area));

@@ -94,7 +94,8 @@ Stats Solver::counts() const {
   s.leaves = static_cast<int64_t>(solution.leaves.size());
   s.rays = state.rays;
   s.pairs = state.pairs;
-  s.links = state.links.link_count() + static_cast<int64_t>(state.direct.links.size());
+  s.links = state.links.link_count() + state.direct.mean.link_count() +
+            static_cast<int64_t>(state.direct.links.size());
   s.link_bytes = bytes_of_links(state);
   s.node_bytes =
       bytes_of_nodes(state) + static_cast<int64_t>(solution.leaves.capacity() * sizeof(NodeId));
@@ -136,6 +137,11 @@ uint64_t Solver::state_hash() const {
     }
   }
   const CornerLight& direct = state.direct;
+  for (size_t k = 0; k < direct.mean.size(); ++k)
+    for (const Link& link : direct.mean[k].links()) {
+      hash.add(static_cast<uint64_t>(link.source));
+      hash.add(link.weight);
+    }
   for (const auto& corners : direct.of_leaf)
     for (int32_t corner : corners) hash.add(static_cast<uint64_t>(corner + 1));
   for (uint32_t first : direct.first) hash.add(static_cast<uint64_t>(first));

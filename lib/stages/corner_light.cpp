@@ -16,6 +16,9 @@ constexpr int64_t corners_of_a_task = 64;
 constexpr double inwards = 1e-3;
 constexpr double most_offsets = 50;
 constexpr int tries_for_an_exposed_point = 64;
+constexpr int steps_to_a_border = 8;
+// Of two corners and the middle of the opposite side: the mean of squares across is exact.
+constexpr double way_in_a_quadrangle = 0.408;
 constexpr double sealed = -1;
 
 uint64_t key_of_corner(int32_t surface, LatticePoint p) {
@@ -46,22 +49,44 @@ CornerSampler::CornerSampler(State& state, const StageTools& tools, const Direct
 
 void CornerSampler::want(int32_t surface, LatticePoint point) {
   const int32_t next = static_cast<int32_t>(value_.size() + wanted_.size());
-  if (number_.emplace(key_of_corner(surface, point), next).second)
-    wanted_.push_back({surface, point});
+  if (!number_.emplace(key_of_corner(surface, point), next).second) return;
+  const Surface& s = state_.forest.surfaces[surface];
+  wanted_.push_back({surface, mix(key_of_corner(s.patch * 2 + s.side, point), seed_),
+                     moved_inwards(surface, point_of(surface, point))});
+}
+
+int32_t CornerSampler::add(NodeId element, int which, Vec3 place) {
+  const Node& node = state_.forest.nodes[element];
+  const uint64_t key = mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(which));
+  wanted_.push_back({node.surface, key, place});
+  return static_cast<int32_t>(value_.size() + wanted_.size()) - 1;
 }
 
 int32_t CornerSampler::number(int32_t surface, LatticePoint point) const {
   return number_.at(key_of_corner(surface, point));
 }
 
-Vec3 CornerSampler::place_of(const Corner& corner) const {
-  const Triangle t = state_.forest.root_triangle(corner.surface);
-  const Vec3 on = t.at(static_cast<double>(corner.point.i) / lattice_size,
-                       static_cast<double>(corner.point.j) / lattice_size);
-  const Vec3 way = t.centroid() - on;
+int32_t CornerSampler::find(int32_t surface, LatticePoint point) const {
+  const auto found = number_.find(key_of_corner(surface, point));
+  return found == number_.end() ? -1 : found->second;
+}
+
+Vec3 CornerSampler::point_of(int32_t surface, LatticePoint point) const {
+  return state_.forest.root_triangle(surface).at(static_cast<double>(point.i) / lattice_size,
+                                                 static_cast<double>(point.j) / lattice_size);
+}
+
+Vec3 CornerSampler::moved_inwards(int32_t surface, Vec3 on) const {
+  const Vec3 way = state_.forest.root_triangle(surface).centroid() - on;
   const double distance = length(way);
   if (!(distance > 0)) return on;
   return on + way * std::min(inwards, most_offsets * tools_.engine.offset() / distance);
+}
+
+bool CornerSampler::is_sealed(int32_t surface, Vec3 place) const {
+  const Surface& s = state_.forest.surfaces[surface];
+  return tools_.exposure.can_be_sealed(s.patch, s.side) &&
+         tools_.exposure.sealed(s.patch, s.side, place);
 }
 
 bool CornerSampler::sample() {
@@ -72,8 +97,8 @@ bool CornerSampler::sample() {
     int64_t rays = 0;
   };
   std::vector<OrientedPoint> points;
-  for (const Corner& corner : wanted_)
-    points.push_back({place_of(corner), state_.forest.surfaces[corner.surface].normal});
+  for (const Wanted& wanted : wanted_)
+    points.push_back({wanted.place, state_.forest.surfaces[wanted.surface].normal});
   state_.rays += grid_.open(points, tools_.team);
   const int64_t count = static_cast<int64_t>(wanted_.size());
   const int64_t tasks = (count + corners_of_a_task - 1) / corners_of_a_task;
@@ -84,15 +109,11 @@ bool CornerSampler::sample() {
         Result& r = results[task];
         const int64_t last = std::min(count, (task + 1) * corners_of_a_task);
         for (int64_t k = task * corners_of_a_task; k < last; ++k) {
-          const Corner& corner = wanted_[k];
-          const Surface& surface = state_.forest.surfaces[corner.surface];
+          const Wanted& wanted = wanted_[k];
           double value = sealed;
-          if (!tools_.exposure.can_be_sealed(surface.patch, surface.side) ||
-              !tools_.exposure.sealed(surface.patch, surface.side, points[k].place)) {
+          if (!is_sealed(wanted.surface, wanted.place)) {
             const size_t before = r.links.size();
-            r.rays += light_.sample(
-                points[k],
-                mix(key_of_corner(surface.patch * 2 + surface.side, corner.point), seed_), r.links);
+            r.rays += light_.sample(points[k], wanted.key, r.links);
             value = 0;
             for (size_t l = before; l < r.links.size(); ++l)
               value +=
@@ -122,25 +143,61 @@ bool CornerSampler::sample() {
   return true;
 }
 
-int32_t CornerSampler::add_within(NodeId id) {
+// The last exposed point on the way.
+Vec3 CornerSampler::border(int32_t surface, Vec3 exposed, Vec3 sealed) const {
+  for (int k = 0; k < steps_to_a_border; ++k) {
+    const Vec3 between = (exposed + sealed) * 0.5;
+    (is_sealed(surface, between) ? sealed : exposed) = between;
+  }
+  return exposed;
+}
+
+bool CornerSampler::points_of_exposed(NodeId id, const LatticePoint corner[3],
+                                      Vec3 place[3]) const {
   const Node& node = state_.forest.nodes[id];
-  const Surface& surface = state_.forest.surfaces[node.surface];
+  const int32_t surface = node.surface;
+  Vec3 open[3], shut[3];
+  int exposed = 0, sealed = 0;
+  for (int c = 0; c < 3; ++c) {
+    const Vec3 on = point_of(surface, corner[c]), within = moved_inwards(surface, on);
+    if (is_sealed(surface, within))
+      shut[sealed++] = on;
+    else
+      open[exposed++] = within;
+  }
+  if (exposed == 1 || exposed == 3) {
+    const Vec3 triangle[3] = {open[0], exposed == 3 ? open[1] : border(surface, open[0], shut[0]),
+                              exposed == 3 ? open[2] : border(surface, open[0], shut[1])};
+    const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) * (1.0 / 3);
+    for (int c = 0; c < 3; ++c) place[c] = (triangle[c] + middle) * 0.5;
+  } else if (exposed == 2) {
+    const Vec3 far = (border(surface, open[0], shut[0]) + border(surface, open[1], shut[0])) * 0.5;
+    const Vec3 middle = (open[0] + open[1] + far * 2) * 0.25;
+    place[0] = middle + (open[0] - middle) * way_in_a_quadrangle;
+    place[1] = middle + (open[1] - middle) * way_in_a_quadrangle;
+    place[2] = middle + (far - middle) * (2 * way_in_a_quadrangle);
+  }
+  Vec3 somewhere;
+  bool found = false;
+  for (int c = 0; c < 3; ++c) {
+    if (exposed > 0 && !is_sealed(surface, place[c])) continue;
+    if (!found && !exposed_within(node, &somewhere)) return false;
+    found = true;
+    place[c] = somewhere;
+  }
+  return true;
+}
+
+bool CornerSampler::exposed_within(const Node& node, Vec3* place) const {
   const Triangle corners = state_.forest.triangle(node);
   const uint64_t key = mix(key_of(state_.forest, node), seed_, 0x77697468u);
-  CornerLight& direct = state_.direct;
   for (int k = 0; k < tries_for_an_exposed_point; ++k) {
     double uv[2];
     spread_point(mix(key, static_cast<uint64_t>(k / 16)), k % 16, uv);
-    const Vec3 place = corners.at(uv[0], uv[1]);
-    if (tools_.exposure.sealed(surface.patch, surface.side, place)) continue;
-    const OrientedPoint point{place, surface.normal};
-    state_.rays += grid_.open({point}, tools_.team) + light_.sample(point, key, direct.links);
-    direct.first.push_back(run_border(direct.links.size()));
-    direct.place.push_back(place);
-    value_.push_back(0);
-    return static_cast<int32_t>(value_.size()) - 1;
+    *place = corners.at(uv[0], uv[1]);
+    if (!is_sealed(node.surface, *place)) return true;
   }
-  return -1;
+  return false;
 }
 
 void drop_unnamed_corners(CornerLight& direct) {
@@ -167,6 +224,12 @@ void drop_unnamed_corners(CornerLight& direct) {
   for (auto& corners : direct.of_leaf)
     for (int32_t& corner : corners)
       if (corner >= 0) corner = number[corner];
+  // Numbers keep their order.
+  size_t own = 0;
+  for (const CornerLight::OwnPoint& point : direct.own)
+    if (number[point.number] >= 0) direct.own[own++] = {number[point.number], point.x, point.y};
+  direct.own.resize(own);
+  direct.own.shrink_to_fit();
 }
 
 }  // namespace hrad

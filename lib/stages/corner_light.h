@@ -29,15 +29,27 @@ class CornerSampler {
   double value(int32_t number) const { return value_[number]; }
   double value(int32_t surface, LatticePoint point) const { return value_[number(surface, point)]; }
 
-  // A corner of an element's own: an exposed point within it. -1 when none was found.
-  int32_t add_within(NodeId element);
+  // Of a corner that may have been asked for, -1: it wasn't.
+  int32_t find(int32_t surface, LatticePoint point) const;
+  // Asks for the light at a point that is an element's own, and gives it a number; `which` tells
+  // apart those of one element.
+  int32_t add(NodeId element, int which, Vec3 place);
+  // Three points that have the mean of every quadratic field over the exposed part of an element
+  // some of whose corners are sealed, as far as that part is a triangle or a quadrangle; or thrice
+  // one exposed point within. False: nothing exposed was found. Any thread.
+  bool points_of_exposed(NodeId element, const LatticePoint corner[3], Vec3 place[3]) const;
 
  private:
-  struct Corner {
+  struct Wanted {
     int32_t surface;
-    LatticePoint point;
+    uint64_t key;
+    Vec3 place;
   };
-  Vec3 place_of(const Corner& corner) const;
+  Vec3 point_of(int32_t surface, LatticePoint point) const;
+  Vec3 moved_inwards(int32_t surface, Vec3 on) const;
+  bool is_sealed(int32_t surface, Vec3 place) const;
+  Vec3 border(int32_t surface, Vec3 exposed, Vec3 sealed) const;
+  bool exposed_within(const Node& node, Vec3* place) const;
 
   State& state_;
   const StageTools& tools_;
@@ -46,7 +58,7 @@ class CornerSampler {
   const DirectLight& light_;
   const uint64_t seed_;
   std::unordered_map<uint64_t, int32_t> number_;  // looked up only, never walked through
-  std::vector<Corner> wanted_;
+  std::vector<Wanted> wanted_;
   std::vector<double> value_;
   double reached_ = 0;  // share of all sampling that is done, guessed
 };

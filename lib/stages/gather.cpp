@@ -47,28 +47,6 @@ void gather_runs(const State& state, const GatherSpace& space, const Link* links
   }
 }
 
-// Light is linear between the corners of a leaf: its mean is theirs. Bands: their number where it
-// is known at compile time, 0 otherwise.
-template <int Bands>
-void add_means_of_corners(const State& state, const std::vector<float>& at_corners, size_t node,
-                          size_t count, float* out) {
-  const int bands = Bands ? Bands : state.bands;
-  for (size_t k = 0; k < count; ++k, out += bands) {
-    const auto& corner = state.direct.of_leaf[node + k];
-    double sum[Bands ? Bands : most_bands] = {};
-    int known = 0;
-    for (int32_t number : corner) {
-      if (number < 0) continue;
-      const float* value = &at_corners[static_cast<size_t>(number) * bands];
-      for (int b = 0; b < bands; ++b) sum[b] += value[b];
-      ++known;
-    }
-    if (known == 0) continue;
-    const double share = 1.0 / known;
-    for (int b = 0; b < bands; ++b) out[b] += static_cast<float>(sum[b] * share);
-  }
-}
-
 void lay_out_sources(const State& state, ThreadTeam& team, GatherSpace& space) {
   if (!by_lanes(state.bands)) return;
   const size_t bands = static_cast<size_t>(state.bands), nodes = state.forest.nodes.size();
@@ -80,23 +58,21 @@ void lay_out_sources(const State& state, ThreadTeam& team, GatherSpace& space) {
   });
 }
 
-void gather_corners(const State& state, ThreadTeam& team, GatherSpace& space) {
-  const CornerLight& direct = state.direct;
-  const size_t bands = static_cast<size_t>(state.bands);
-  space.at_corners.resize(direct.corner_count() * bands);
-  for_each_part(direct.corner_count(), team, [&](size_t begin, size_t end) {
-    gather_runs(state, space, direct.links.data(), &direct.first[begin], end - begin,
-                direct.first[end], &space.at_corners[begin * bands]);
-  });
+// Adds the direct light of one block's leaves.
+void add_direct_light(const State& state, const GatherSpace& space, size_t block, float* out) {
+  const LinkTable::Block direct = state.direct.mean.block(block);
+  const size_t values = direct.receivers * static_cast<size_t>(state.bands);
+  std::vector<float> light(values);
+  gather_runs(state, space, direct.links, direct.first, direct.receivers, direct.end, light.data());
+  for (size_t k = 0; k < values; ++k) out[k] += light[k];
 }
 
 }  // namespace
 
 int64_t bytes_of_gather_space(const State& state) {
-  const size_t bands = static_cast<size_t>(state.bands);
-  const size_t sources = by_lanes(state.bands) ? state.forest.nodes.size() * bands : 0;
-  const size_t corners = state.direct.corner_count() * bands;
-  return static_cast<int64_t>((sources + corners) * sizeof(float));
+  if (!by_lanes(state.bands)) return 0;
+  return static_cast<int64_t>(state.forest.nodes.size() * static_cast<size_t>(state.bands) *
+                              sizeof(float));
 }
 
 void gather_corner(const State& state, size_t corner, float* irradiance) {
@@ -110,17 +86,19 @@ void gather_links(const State& state, NodeId node, float* irradiance) {
   gather_run(state.links[node].links(), state, irradiance);
 }
 
+void gather_direct(const State& state, NodeId leaf, float* irradiance) {
+  gather_run(state.direct.mean[leaf].links(), state, irradiance);
+}
+
 void gather(State& state, ThreadTeam& team, GatherSpace& space) {
   lay_out_sources(state, team, space);
-  gather_corners(state, team, space);
   const size_t bands = static_cast<size_t>(state.bands);
   team.for_each(static_cast<int64_t>(state.links.block_count()), [&](int64_t task, int) {
-    const LinkTable::Block block = state.links.block(static_cast<size_t>(task));
+    const size_t number = static_cast<size_t>(task);
+    const LinkTable::Block block = state.links.block(number);
     float* const out = &state.irradiance[block.receiver * bands];
     gather_runs(state, space, block.links, block.first, block.receivers, block.end, out);
-    if (state.direct.corner_count() == 0) return;
-    const auto add = state.bands == 3 ? add_means_of_corners<3> : add_means_of_corners<0>;
-    add(state, space.at_corners, block.receiver, block.receivers, out);
+    if (state.direct.mean.size() > 0) add_direct_light(state, space, number, out);
   });
 }
 

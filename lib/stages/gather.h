@@ -10,8 +10,7 @@ namespace hrad {
 
 // What gathering needs beside the state, to be kept from sweep to sweep.
 struct GatherSpace {
-  std::vector<float> sources;     // radiosity as the inner loop reads it
-  std::vector<float> at_corners;  // irradiance at corners, straight from bright emitters
+  std::vector<float> sources;  // radiosity as the inner loop reads it
 };
 
 int64_t bytes_of_gather_space(const State& state);
@@ -19,10 +18,13 @@ int64_t bytes_of_gather_space(const State& state);
 // Irradiance at a corner, straight from bright emitters: bands values.
 void gather_corner(const State& state, size_t corner, float* irradiance);
 
-// Irradiance over a node's own links alone, without what its corners have: bands values.
+// Irradiance over a node's own links alone, without direct light: bands values.
 void gather_links(const State& state, NodeId node, float* irradiance);
 
-// state.irradiance = links x state.radiosity, and at leaves the mean of their corners, for
+// Irradiance over a leaf straight from bright emitters: bands values.
+void gather_direct(const State& state, NodeId leaf, float* irradiance);
+
+// state.irradiance = links x state.radiosity, and at leaves the mean of their direct light, for
 // push_pull() to spread: in double precision and in the order of each run.
 void gather(State& state, ThreadTeam& team, GatherSpace& space);
 void gather(State& state, ThreadTeam& team);

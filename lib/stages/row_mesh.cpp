@@ -6,26 +6,13 @@
 #include <cmath>
 #include <utility>
 
-#include "links/element.h"
+#include "stages/cell_contrast.h"
 
 namespace hrad {
 namespace {
 
 // An element whose middles are known already is divided for this share of the tolerance.
-constexpr double worth_keeping = 0.25;
-// Borders of contacts are followed down to this share of a cell.
-constexpr double least_of_a_contact = 1.0 / 16;
-
-// Points half way from the corners to the middle, in the order of these.
-void half_way_points(const Node& node, LatticePoint point[3]) {
-  LatticePoint corner[3];
-  lattice_corners(node, corner);
-  const int32_t i = corner[0].i + corner[1].i + corner[2].i;
-  const int32_t j = corner[0].j + corner[1].j + corner[2].j;
-  for (int c = 0; c < 3; ++c) point[c] = {(3 * corner[c].i + i) / 6, (3 * corner[c].j + j) / 6};
-}
-
-LatticePoint middle(LatticePoint a, LatticePoint b) { return {(a.i + b.i) / 2, (a.j + b.j) / 2}; }
+constexpr double worth_keeping = 0.5;
 
 }  // namespace
 
@@ -39,6 +26,7 @@ RowMesh::RowMesh(State& state, StageTools tools, const RowSettings& settings,
       sampler_(state.forest, tools_.engine, tools_.exposure, tools_.oracle.seed,
                tools_.oracle.near_ratio),
       corners_(state, tools_, light, grid, brightness, settings.seed),
+      leaves_(state, tools_, corners_),
       memory_(memory) {}
 
 bool RowMesh::build() {
@@ -48,9 +36,7 @@ bool RowMesh::build() {
     if (forest_.nodes[id].exposed > 0) open.push_back(id);
   if (!keep_small_patches(open)) return false;
   for (NodeId id : open) want_corners(id);
-  if (!sample_corners() || !refine(std::move(open))) return false;
-  name_corners();
-  return true;
+  return sample_corners() && refine(std::move(open)) && name_leaves();
 }
 
 // Children of a leaf. Their exposure is that of the parent where it is whole.
@@ -63,7 +49,6 @@ NodeId RowMesh::add_children(NodeId parent) {
     forest_.nodes.push_back(child);
   }
   forest_.nodes[parent].first_child = first;
-  if (parent < named_) state_.direct.of_leaf[parent] = {-1, -1, -1};
   return first;
 }
 
@@ -114,7 +99,7 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
         high = std::max(high, corners_.value(id, p));
       }
       if (low >= 0 && weighed((high - low) / 2, forest_.area(forest_.nodes[id])) <= 1) {
-        forest_.nodes[id].half_way = 1;
+        forest_.nodes[id].light_points = half_way_to_the_middle;
         continue;
       }
     }
@@ -172,7 +157,6 @@ bool RowMesh::may_divide(NodeId id) const {
   const Node& node = forest_.nodes[id];
   const double area = forest_.area(node);
   if (node.level >= max_level || area < 4 * settings_.min_area) return false;
-  if (node.exposed < 1) return area > least_of_a_contact * settings_.cell_area;
   // Where little arrives, or on little area, nothing can deviate by much.
   LatticePoint corner[3];
   lattice_corners(node, corner);
@@ -186,6 +170,10 @@ double RowMesh::weighed(double deviation, double area) const {
   return deviation * std::sqrt(std::min(1.0, area / settings_.cell_area)) / settings_.tolerance;
 }
 
+double RowMesh::light_at(int32_t surface, LatticePoint corner) const {
+  return std::max(0.0, corners_.value(surface, corner));  // nothing arrives where it is sealed
+}
+
 // Of the middles of the edges from the means of their ends.
 double RowMesh::deviation(NodeId id) const {
   const Node& node = forest_.nodes[id];
@@ -194,48 +182,22 @@ double RowMesh::deviation(NodeId id) const {
   double largest = 0;
   for (int c = 0; c < 3; ++c) {
     const LatticePoint from = corner[c], to = corner[(c + 1) % 3];
-    const double a = corners_.value(node.surface, from), b = corners_.value(node.surface, to);
-    const double m = corners_.value(node.surface, middle(from, to));
-    if (a < 0 || b < 0 || m < 0) return 2;  // the border of a contact
-    largest = std::max(largest, std::fabs(m - (a + b) / 2));
+    const double ends = light_at(node.surface, from) + light_at(node.surface, to);
+    largest = std::max(largest, std::fabs(light_at(node.surface, middle(from, to)) - ends / 2));
   }
   return weighed(largest, forest_.area(node));
 }
 
-// Irradiance varies over distances like those to what it comes from or what hides that (Ward,
-// Rubinstein, Clear 1988), as far as this is brighter or darker than the rest; in units of the
-// scene's mean irradiance.
-double RowMesh::cell_variation(NodeId cell, const Brightness& brightness) const {
-  const Node& node = forest_.nodes[cell];
-  const Vec3 center = forest_.triangle(node).centroid();
-  const double leg = std::sqrt(2 * forest_.area(node));
-  double all = 0, seen = 0;
-  for (const Link& link : state_.links[cell].links()) {
-    all += link.weight;
-    seen += static_cast<double>(link.weight) * brightness.of_node[link.source];
-  }
-  if (!(all > 0)) return 0;
-  const double mean = seen / all;
-  double sum = 0;
-  for (const Link& link : state_.links[cell].links()) {
-    const double distance =
-        length(forest_.triangle(forest_.nodes[link.source]).centroid() - center);
-    sum += link.weight * std::fabs(brightness.of_node[link.source] - mean) * leg /
-           std::max(distance, leg / 4);
-  }
-  return sum;
-}
-
 bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells) {
   new_cells.clear();
+  const std::vector<float> contrast = contrast_of_cells(state_, brightness);
   std::vector<uint8_t> divide(state_.cells.size());
-  tools_.team.for_each(static_cast<int64_t>(divide.size()), [&](int64_t k, int) {
-    const NodeId cell = state_.cells[k];
-    const double area = forest_.area(forest_.nodes[cell]);
-    if (area < 4 * settings_.least_cell_area || forest_.nodes[cell].level >= max_level) return;
-    divide[k] = cell_variation(cell, brightness) * std::sqrt(area / settings_.cell_area) >
-                settings_.cell_variation;
-  });
+  for (size_t k = 0; k < divide.size(); ++k) {
+    const Node& node = forest_.nodes[state_.cells[k]];
+    const double area = forest_.area(node);
+    divide[k] = area >= 4 * settings_.least_cell_area && node.level < max_level &&
+                contrast[k] * std::sqrt(area / settings_.cell_area) > settings_.contrast;
+  }
   std::vector<NodeId> leaves, cells;
   for (size_t k = 0; k < divide.size(); ++k) {
     const NodeId cell = state_.cells[k];
@@ -247,12 +209,13 @@ bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& ne
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
   for (NodeId id : leaves) {
     const NodeId first = add_children(id);
-    if (forest_.nodes[id].half_way) {
+    if (forest_.nodes[id].light_points == half_way_to_the_middle) {
       for (NodeId child = first; child < first + 4; ++child) {
-        forest_.nodes[child].half_way = 1;
+        forest_.nodes[child].light_points = half_way_to_the_middle;
         want_half_way(child);
       }
     } else {
+      want_corners(id);
       want_middles(id);
     }
   }
@@ -271,38 +234,14 @@ bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& ne
   std::sort(cells.begin(), cells.end());
   state_.cells.swap(cells);
   state_.links.replace(std::move(dropped));
-  name_corners();
-  return true;
+  return name_leaves();
 }
 
-void RowMesh::name_corners() {
-  CornerLight& direct = state_.direct;
-  const NodeId end = static_cast<NodeId>(forest_.nodes.size());
-  direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
-  for (NodeId id = named_; id < end; ++id)
-    if (forest_.is_leaf(id) && forest_.nodes[id].exposed > 0) name_corners_of(id);
-  named_ = end;
+bool RowMesh::name_leaves() {
   state_.links.resize(forest_.nodes.size());
+  const bool going_on = leaves_.name();
   memory_.settle();
-}
-
-// A leaf that is exposed only between sealed corners gets light from an exposed point.
-void RowMesh::name_corners_of(NodeId leaf) {
-  CornerLight& direct = state_.direct;
-  const Node& node = forest_.nodes[leaf];
-  LatticePoint corner[3];
-  lattice_corners(node, corner);
-  if (node.half_way) half_way_points(node, corner);
-  bool any = false;
-  for (int c = 0; c < 3; ++c) {
-    const int32_t number = corners_.number(node.surface, corner[c]);
-    if (corners_.value(number) < 0) continue;
-    direct.of_leaf[leaf][c] = number;
-    any = true;
-  }
-  if (any) return;
-  const int32_t own = corners_.add_within(leaf);
-  direct.of_leaf[leaf] = {own, own, own};
+  return going_on;
 }
 
 }  // namespace hrad

@@ -6,6 +6,7 @@
 
 #include "links/link_sampler.h"
 #include "stages/corner_light.h"
+#include "stages/leaf_light.h"
 #include "stages/rows.h"
 #include "stages/state_memory.h"
 
@@ -35,11 +36,10 @@ class RowMesh {
   void want_corners(NodeId id);
   void want_middles(NodeId id);
   bool may_divide(NodeId id) const;
+  double light_at(int32_t surface, LatticePoint corner) const;
   double deviation(NodeId id) const;
   double weighed(double deviation, double area) const;
-  double cell_variation(NodeId cell, const Brightness& brightness) const;
-  void name_corners();
-  void name_corners_of(NodeId leaf);
+  bool name_leaves();
 
   State& state_;
   Forest& forest_;
@@ -47,8 +47,8 @@ class RowMesh {
   const RowSettings settings_;
   const LinkSampler sampler_;
   CornerSampler corners_;
+  LeafLight leaves_;
   StageMemory& memory_;
-  NodeId named_ = 0;  // nodes before this one have their corners named
 };
 
 }  // namespace hrad

@@ -13,15 +13,15 @@
 namespace hrad {
 namespace {
 
-constexpr int pilot_rounds = 4;
+constexpr int pilot_rounds = 3;
 // Pilot rows tell where light varies, not how much there is.
-constexpr int pilot_share = 2;
+constexpr int pilot_share = 4;
 // Bounces after which it is known well enough where that is.
 constexpr int pilot_sweeps = 6;
 
 // Deviation of what a ray brings, in units of the mean irradiance, for which the ordinary number of
 // rays is meant, and how many times that there may be.
-constexpr double ordinary_deviation = 0.15, most_more_rays = 32;
+constexpr double ordinary_deviation = 0.15, most_more_rays = 64;
 
 // The part of the whole from `from` to `to`.
 StageTools part_of(const StageTools& tools, double from, double to) {
@@ -32,6 +32,25 @@ StageTools part_of(const StageTools& tools, double from, double to) {
   return part;
 }
 
+// Where a few bright spots make the root mean square, everything else would seem even: the unit is
+// no larger than twice the mean.
+void stay_near_the_mean(const State& state, Brightness& light) {
+  double sum = 0, area = 0;
+  for (NodeId root = 0; root < state.forest.surface_count(); ++root) {
+    const double exposed = state.forest.surfaces[root].area * state.forest.nodes[root].exposed;
+    double largest = 0;
+    for (int b = 0; b < state.bands; ++b)
+      largest = std::max(
+          largest, light.unit[b] * state.irradiance[static_cast<size_t>(root) * state.bands + b]);
+    sum += exposed * largest;
+    area += exposed;
+  }
+  if (!(sum > 0) || 2 * sum >= area) return;
+  const double factor = area / (2 * sum);
+  for (double& unit : light.unit) unit *= factor;
+  for (float& brightness : light.of_node) brightness = static_cast<float>(brightness * factor);
+}
+
 Brightness light_of_pilot_rows(State& state, ThreadTeam& team) {
   reset_to_emission(state);
   GatherSpace space;
@@ -39,7 +58,9 @@ Brightness light_of_pilot_rows(State& state, ThreadTeam& team) {
     gather(state, team, space);
     push_pull(state, team);
   }
-  return measure_brightness(state, team);
+  Brightness light = measure_brightness(state, team);
+  stay_near_the_mean(state, light);
+  return light;
 }
 
 int rays_of(const RowSettings& settings, double area) {
@@ -114,10 +135,10 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
     if (!trace_rows(state, part_of(tools, from, from + 0.3 / pilot_rounds), pilot, emitters, cells,
                     rays_by_area(state, pilot, cells), memory))
       return false;
-    const Brightness light = light_of_pilot_rows(state, tools.team);
-    rays = rays_by_variance(state, settings, light);
+    const Brightness seen = light_of_pilot_rows(state, tools.team);
+    rays = rays_by_variance(state, settings, seen);
     if (round + 1 == pilot_rounds) break;
-    if (!mesh.divide_cells(light, cells)) return false;
+    if (!mesh.divide_cells(seen, cells)) return false;
     pull_exposure(state.forest);
   }
   if (!trace_rows(state, part_of(tools, 0.6, 1), settings, emitters, state.cells, rays, memory))

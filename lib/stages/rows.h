@@ -10,9 +10,9 @@ namespace hrad {
 struct RowSettings {
   // Of the elements that own rows: at the most, and at the least.
   double cell_area = 1, least_cell_area = 0;
-  // Estimated variation of reflected light over a cell that isn't divided, weighted with the root
-  // of its area over cell_area; as all that follows in units of the scene's mean irradiance.
-  double cell_variation = 0.03;
+  // Contrast of reflected light (cell_contrast.h) over which a cell is divided, weighted with the
+  // root of its area over cell_area; as all that follows in units of the scene's mean irradiance.
+  double contrast = 0.03;
   // Of a cell of cell_area; smaller ones have fewer, by the root of the area.
   int rays_of_cell = 64;
   int least_rays = 16;

@@ -18,31 +18,25 @@
 
 namespace hrad {
 
-// Light straight from bright emitters (linking=rows), known at the corners of the leaves and linear
-// between them. No corner is shared by two surfaces.
+// Light straight from bright emitters (linking=rows).
 struct CornerLight {
-  // Per node the numbers of its corners, or of the points half way from them to the middle
-  // (Node::half_way), in the order of Forest::triangle; -1: a corner without
-  // light of its own, sealed, or a node that is no leaf. Empty in other linking methods.
+  LinkTable mean;  // per node, of leaves: the mean over the leaf, from roots of emitters
+  // What pictures and points are made of, linear between three points of a leaf
+  // (Node::light_points). Per node the numbers of these points in the order of Forest::triangle;
+  // -1: the node has no direct light or is no leaf. No point is shared by two surfaces. Empty in
+  // other linking methods.
   std::vector<std::array<int32_t, 3>> of_leaf;
-  std::vector<uint32_t> first;  // per corner and one more: its run of links
+  std::vector<uint32_t> first;  // per point and one more: its run of links
   std::vector<Link> links;      // from roots of emitters
-  std::vector<Vec3> place;      // per corner: where it was sampled; empty once rows are traced
+  // The points that belong to one leaf alone, ascending, and where they lie in it.
+  struct OwnPoint {
+    int32_t number;
+    float x, y;
+  };
+  std::vector<OwnPoint> own;
+  std::vector<Vec3> place;  // per point: where it was sampled; empty once rows are traced
   size_t corner_count() const { return first.empty() ? 0 : first.size() - 1; }
 };
-
-// Mean of values at the corners of a leaf (per corner and band), one band; sealed ones have none.
-inline double mean_of_corners(const CornerLight& direct, const std::vector<float>& values,
-                              NodeId leaf, int band, int bands) {
-  double sum = 0;
-  int count = 0;
-  for (int32_t corner : direct.of_leaf[leaf]) {
-    if (corner < 0) continue;
-    sum += values[static_cast<size_t>(corner) * bands + band];
-    ++count;
-  }
-  return count ? sum / count : 0;
-}
 
 struct State {
   State(const Scene& scene) : forest(scene), bands(scene.bands) {}
@@ -54,7 +48,7 @@ struct State {
   CornerLight direct;
   std::vector<float> radiosity;   // per node and band: mean over the exposed part
   std::vector<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
-                                  // links and corners brought
+                                  // links brought
   int64_t rays = 0, pairs = 0;
   MemoryBudget memory;  // of scene, ray engine, elements and links
 };

@@ -13,14 +13,16 @@ int64_t bytes_in(const std::vector<T>& array) {
 }  // namespace
 
 int64_t bytes_of_links(const State& state) {
-  return state.links.bytes_of_links() + bytes_in(state.direct.links);
+  return state.links.bytes_of_links() + state.direct.mean.bytes_of_links() +
+         bytes_in(state.direct.links);
 }
 
 int64_t bytes_of_nodes(const State& state) {
   const CornerLight& direct = state.direct;
   return bytes_in(state.forest.nodes) + bytes_in(state.radiosity) + bytes_in(state.irradiance) +
          state.links.bytes() - state.links.bytes_of_links() + bytes_in(state.cells) +
-         bytes_in(direct.of_leaf) + bytes_in(direct.first) + bytes_in(direct.place);
+         direct.mean.bytes() - direct.mean.bytes_of_links() + bytes_in(direct.of_leaf) +
+         bytes_in(direct.first) + bytes_in(direct.own) + bytes_in(direct.place);
 }
 
 int64_t bytes_of(const State& state) { return bytes_of_nodes(state) + bytes_of_links(state); }
@@ -31,6 +33,7 @@ void shrink_to_fit(State& state) {
   state.irradiance.shrink_to_fit();
   state.cells.shrink_to_fit();
   state.links.shrink_to_fit();
+  state.direct.mean.shrink_to_fit();
   state.direct.of_leaf.shrink_to_fit();
   state.direct.first.shrink_to_fit();
   state.direct.links.shrink_to_fit();

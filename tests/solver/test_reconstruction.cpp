@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/corner_index.h"
+#include "hierarchy/corner_index.h"
 #include "solver/reconstruction.h"
 #include "support/workbench.h"
 #include "visibility/brute_force.h"
@@ -273,13 +273,15 @@ void sealed_leaves_do_not_darken_their_neighbours() {
   }
 }
 
+// Along the border a slope goes on beyond the means of the elements, by half of the brightest at the
+// most.
 void values_are_never_negative() {
   Field field(square());
   field.split_unevenly(6, 7);
   field.fill([](Vec3 p, int) { return p.x > 0.7 ? 100.0 : 0.0; });
   for (uint64_t k = 0; k < 2000; ++k) {
     const double value = at_point(field, unit_interval(mix(k, 1)), unit_interval(mix(k, 2)));
-    CHECK(value >= 0 && value <= 100);
+    CHECK(value >= 0 && value <= 150);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/angle.h"
 #include "stages/rows.h"
 #include "support/workbench.h"
 #include "visibility/brute_force.h"
@@ -23,21 +24,14 @@ struct Rows {
   }
   bool link() { return link_rows(bench.state, bench.tools({}), settings); }
 
-  // Weights of the rows of the cells above a leaf, and of the light at its corners.
+  // Weights of the rows of the cells above a leaf, and of its direct light.
   double weight_of_leaf(NodeId leaf) const {
     const State& state = bench.state;
     double sum = 0;
     for (NodeId id = leaf; id >= 0; id = state.forest.nodes[id].parent)
       for (const Link& link : state.links[id].links()) sum += link.weight;
-    int corners = 0;
-    double direct = 0;
-    for (int32_t corner : state.direct.of_leaf[leaf]) {
-      if (corner < 0) continue;
-      ++corners;
-      for (uint32_t k = state.direct.first[corner]; k < state.direct.first[corner + 1]; ++k)
-        direct += state.direct.links[k].weight;
-    }
-    return sum + (corners ? direct / corners : 0);
+    for (const Link& link : state.direct.mean[leaf].links()) sum += link.weight;
+    return sum;
   }
 
   Workbench bench;
@@ -126,9 +120,64 @@ void cells_cover_all_surfaces() {
   for (NodeId id = 0; id < static_cast<NodeId>(state.forest.nodes.size()); ++id)
     for (int32_t corner : state.direct.of_leaf[id]) {
       const bool may_have = state.forest.is_leaf(id) && state.forest.nodes[id].exposed > 0;
-      if (!may_have) CHECK_EQUAL(corner, -1);
+      if (!may_have) {
+        CHECK_EQUAL(corner, -1);
+        CHECK_EQUAL(state.direct.mean[id].count(), 0);
+      }
       CHECK(corner < static_cast<int32_t>(state.direct.corner_count()));
     }
+}
+
+// Around the box that stands on it, the floor knows its light where it is exposed: the light at the
+// points of a leaf's own has the mean of the leaf, and the whole floor that of a dense grid of
+// points, each of which sees the lamp by a quadrature of its own.
+void contacts_have_the_light_of_the_exposed_part() {
+  Scene scene = room_with_lamp();
+  set_light(scene, 0, scene.patch_count(), 0, 0.5);
+  const int64_t lamp = 24;
+  set_light(scene, lamp, 2, 50, 0.5);
+  Rows rows(scene);
+  CHECK(rows.link());
+  const State& state = rows.bench.state;
+  const Forest& forest = state.forest;
+  int own = 0;
+  double solved = 0;
+  for (NodeId leaf : forest.leaves()) {
+    const Node& node = forest.nodes[leaf];
+    if (forest.surfaces[node.surface].patch > 1) continue;
+    double mean = 0, at_points = 0;
+    for (const Link& link : state.direct.mean[leaf].links()) mean += link.weight;
+    solved += mean * forest.area(node) * node.exposed;
+    if (node.light_points != at_own_points || state.direct.of_leaf[leaf][0] < 0) continue;
+    ++own;
+    for (int32_t number : state.direct.of_leaf[leaf])
+      for (uint32_t k = state.direct.first[number]; k < state.direct.first[number + 1]; ++k)
+        at_points += state.direct.links[k].weight / 3.0;
+    CHECK_NEAR(mean, at_points, 1e-6);
+  }
+  CHECK(own > 0);
+  for (const CornerLight::OwnPoint& point : state.direct.own) {
+    CHECK(point.number >= 0 && point.number < static_cast<int32_t>(state.direct.corner_count()));
+    CHECK(point.x > -1e-3 && point.y > -1e-3 && point.x + point.y < 1 + 1e-3);
+  }
+  // Lambert's cosines over the square of the distance, from grid to grid, by rays one at a time.
+  constexpr int steps = 120, lamp_steps = 6;
+  double wanted = 0;
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) {
+      const Vec3 x{4.0 * (i + 0.5) / steps, 3.0 * (j + 0.5) / steps, 1e-4};
+      if (x.x > 1 && x.x < 1.6 && x.y > 1 && x.y < 1.5) continue;
+      for (int k = 0; k < lamp_steps * lamp_steps; ++k) {
+        const Vec3 y{1.8 + 0.4 * (k % lamp_steps + 0.5) / lamp_steps,
+                     1.3 + 0.4 * (k / lamp_steps + 0.5) / lamp_steps, 2.3 - 1e-4};
+        const Vec3 d = y - x;
+        if (rows.bench.engine->nearest(x, d, 0).t < 1) continue;
+        const double square = dot(d, d);
+        wanted += d.z * d.z / (pi * square * square) * 0.16 / (lamp_steps * lamp_steps) * 12 /
+                  (steps * steps);
+      }
+    }
+  CHECK_NEAR(solved / wanted, 1, 0.005);
 }
 
 // Leaves are small at the edge of the shadow that a plate throws, and large away from it.
@@ -191,9 +240,13 @@ void a_stop_is_heeded() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(rows_of_a_closed_scene_sum_to_one), HRAD_TEST(light_of_a_lamp_is_counted_once),
-      HRAD_TEST(cells_cover_all_surfaces),          HRAD_TEST(the_mesh_follows_the_shadow),
-      HRAD_TEST(seeds_differ_by_noise_alone),       HRAD_TEST(a_stop_is_heeded),
+      HRAD_TEST(rows_of_a_closed_scene_sum_to_one),
+      HRAD_TEST(light_of_a_lamp_is_counted_once),
+      HRAD_TEST(cells_cover_all_surfaces),
+      HRAD_TEST(the_mesh_follows_the_shadow),
+      HRAD_TEST(seeds_differ_by_noise_alone),
+      HRAD_TEST(a_stop_is_heeded),
+      HRAD_TEST(contacts_have_the_light_of_the_exposed_part),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

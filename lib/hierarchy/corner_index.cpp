@@ -1,5 +1,5 @@
-// Welding vertices, joining coplanar surfaces, naming lattice points. Floor 8 (solver).
-#include "solver/corner_index.h"
+// Welding vertices, joining coplanar surfaces, naming lattice points. Floor 5 (hierarchy).
+#include "hierarchy/corner_index.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Names for the corners of elements that neighbouring surfaces agree on: exact, by lattice
-// coordinates and shared edges, never by comparing rounded positions. Floor 8 (solver).
+// coordinates and shared edges, never by comparing rounded positions. Floor 5 (hierarchy).
 #pragma once
 
 #include <cstdint>

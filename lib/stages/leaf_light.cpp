@@ -1,0 +1,183 @@
+// Points of leaves and the weights of their mean. Floor 7 (stages).
+#include "stages/leaf_light.h"
+
+#include <algorithm>
+
+namespace hrad {
+namespace {
+
+constexpr int64_t leaves_of_a_task = 256;
+
+// Weights of corners, middles of edges and centroid. Light is not linear between the corners, and
+// those lie in creases: their mean alone would be too dark. With the centroid the mean of every
+// quadratic field is exact, with the middles that of every cubic one (Stroud, "Approximate
+// calculation of multiple integrals", 1971, Section 8.8).
+constexpr double corner_of_four = 1.0 / 12, centroid_of_four = 3.0 / 4;
+constexpr double corner_of_seven = 1.0 / 20, middle_of_seven = 2.0 / 15,
+                 centroid_of_seven = 9.0 / 20;
+constexpr int number_of_centroid = 3;  // among the points that belong to a leaf alone
+
+// Of a point in the plane of a triangle: it is Triangle::at(x, y).
+void coordinates_in(const Triangle& t, Vec3 point, double* x, double* y) {
+  const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = point - t.a;
+  const double bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac);
+  const double pb = dot(ap, ab), pc = dot(ap, ac), determinant = bb * cc - bc * bc;
+  *x = (cc * pb - bc * pc) / determinant;
+  *y = (bb * pc - bc * pb) / determinant;
+}
+
+}  // namespace
+
+struct LeafLight::Share {
+  int32_t number;  // of a sampled point
+  double weight;
+};
+
+bool LeafLight::name() {
+  const NodeId end = static_cast<NodeId>(forest_.nodes.size());
+  forget_divided();
+  state_.direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
+  state_.direct.mean.resize(forest_.nodes.size());
+  std::vector<NodeId> leaves, partly_sealed;
+  for (NodeId id = named_; id < end; ++id) {
+    if (!forest_.is_leaf(id) || !(forest_.nodes[id].exposed > 0)) continue;
+    leaves.push_back(id);
+    if (!take_corners(id)) partly_sealed.push_back(id);
+  }
+  named_ = end;
+  take_own_points(partly_sealed);
+  std::vector<int32_t> centroids;
+  for (NodeId leaf : leaves) {
+    const bool wanted = forest_.nodes[leaf].light_points == at_corners;
+    centroids.push_back(wanted ? corners_.add(leaf, number_of_centroid,
+                                              forest_.triangle(forest_.nodes[leaf]).centroid())
+                               : -1);
+  }
+  if (!corners_.sample()) return false;
+  add_up_means(leaves, centroids);
+  return true;
+}
+
+void LeafLight::forget_divided() {
+  std::vector<LinkTable::NewRun> none;
+  for (NodeId id = 0; id < named_; ++id) {
+    auto& points = state_.direct.of_leaf[id];
+    if (points[0] < 0 || forest_.is_leaf(id)) continue;
+    points = {-1, -1, -1};
+    none.push_back({id, {}});
+  }
+  state_.direct.mean.replace(std::move(none));
+}
+
+// False: some are sealed.
+bool LeafLight::take_corners(NodeId leaf) {
+  const Node& node = forest_.nodes[leaf];
+  LatticePoint point[3];
+  if (node.light_points == half_way_to_the_middle)
+    half_way_points(node, point);
+  else
+    lattice_corners(node, point);
+  std::array<int32_t, 3> number;
+  for (int c = 0; c < 3; ++c) {
+    number[c] = corners_.number(node.surface, point[c]);
+    if (corners_.value(number[c]) < 0) return false;
+  }
+  state_.direct.of_leaf[leaf] = number;
+  return true;
+}
+
+// A leaf with sealed corners has points of its own instead, on its exposed part.
+void LeafLight::take_own_points(const std::vector<NodeId>& leaves) {
+  struct Found {
+    bool any = false;
+    Vec3 place[3];
+  };
+  std::vector<Found> found(leaves.size());
+  tools_.team.for_each(static_cast<int64_t>(leaves.size()), [&](int64_t k, int) {
+    LatticePoint corner[3];
+    lattice_corners(forest_.nodes[leaves[k]], corner);
+    found[k].any = corners_.points_of_exposed(leaves[k], corner, found[k].place);
+  });
+  CornerLight& direct = state_.direct;
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    Node& node = forest_.nodes[leaves[k]];
+    node.light_points = at_own_points;
+    if (!found[k].any) continue;
+    const Triangle triangle = forest_.triangle(node);
+    for (int c = 0; c < 3; ++c) {
+      const int32_t number = corners_.add(leaves[k], c, found[k].place[c]);
+      direct.of_leaf[leaves[k]][c] = number;
+      double x, y;
+      coordinates_in(triangle, found[k].place[c], &x, &y);
+      direct.own.push_back({number, static_cast<float>(x), static_cast<float>(y)});
+    }
+  }
+}
+
+std::vector<LeafLight::Share> LeafLight::shares_of_mean(NodeId leaf, int32_t centroid) const {
+  const Node& node = forest_.nodes[leaf];
+  const auto& points = state_.direct.of_leaf[leaf];
+  std::vector<Share> shares;
+  if (points[0] < 0) return shares;
+  if (centroid < 0 || corners_.value(centroid) < 0) {
+    for (int32_t number : points) shares.push_back({number, 1.0 / 3});
+    return shares;
+  }
+  LatticePoint corner[3];
+  lattice_corners(node, corner);
+  int32_t middles[3];
+  bool known = true;
+  for (int c = 0; c < 3; ++c) {
+    middles[c] = corners_.find(node.surface, middle(corner[c], corner[(c + 1) % 3]));
+    known = known && middles[c] >= 0 && corners_.value(middles[c]) >= 0;
+  }
+  for (int32_t number : points)
+    shares.push_back({number, known ? corner_of_seven : corner_of_four});
+  for (int c = 0; c < 3 && known; ++c) shares.push_back({middles[c], middle_of_seven});
+  shares.push_back({centroid, known ? centroid_of_seven : centroid_of_four});
+  return shares;
+}
+
+// One run of links for each leaf, so that sweeps need no corners.
+void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
+                             const std::vector<int32_t>& centroids) {
+  const CornerLight& direct = state_.direct;
+  const int64_t count = static_cast<int64_t>(leaves.size());
+  const int64_t tasks = (count + leaves_of_a_task - 1) / leaves_of_a_task;
+  struct Result {
+    std::vector<Link> links;
+    std::vector<size_t> end;  // of each leaf's links
+  };
+  std::vector<Result> results(static_cast<size_t>(tasks));
+  tools_.team.for_each(tasks, [&](int64_t task, int) {
+    Result& r = results[task];
+    std::vector<Link> all;
+    for (int64_t k = task * leaves_of_a_task; k < std::min(count, (task + 1) * leaves_of_a_task);
+         ++k) {
+      all.clear();
+      for (const Share& share : shares_of_mean(leaves[k], centroids[k]))
+        for (uint32_t l = direct.first[share.number]; l < direct.first[share.number + 1]; ++l)
+          all.push_back(
+              {direct.links[l].source, static_cast<float>(share.weight * direct.links[l].weight)});
+      std::stable_sort(all.begin(), all.end(),
+                       [](const Link& a, const Link& b) { return a.source < b.source; });
+      for (size_t at = 0; at < all.size();) {
+        double sum = 0;
+        const NodeId source = all[at].source;
+        for (; at < all.size() && all[at].source == source; ++at) sum += all[at].weight;
+        r.links.push_back({source, static_cast<float>(sum)});
+      }
+      r.end.push_back(r.links.size());
+    }
+  });
+  std::vector<LinkTable::NewRun> runs;
+  for (int64_t k = 0; k < count; ++k) {
+    const Result& r = results[k / leaves_of_a_task];
+    const size_t in_task = static_cast<size_t>(k % leaves_of_a_task);
+    const size_t begin = in_task ? r.end[in_task - 1] : 0;
+    runs.push_back({leaves[k], {r.links.data() + begin, r.end[in_task] - begin}});
+  }
+  state_.direct.mean.replace(std::move(runs));
+}
+
+}  // namespace hrad

@@ -1,0 +1,36 @@
+// Direct light of the leaves: the points at which each of them knows it, and its mean.
+// Floor 7 (stages).
+#pragma once
+
+#include <vector>
+
+#include "stages/corner_light.h"
+
+namespace hrad {
+
+class LeafLight {
+ public:
+  // All must outlive this.
+  LeafLight(State& state, const StageTools& tools, CornerSampler& corners)
+      : state_(state), forest_(state.forest), tools_(tools), corners_(corners) {}
+
+  // Gives the leaves made since the last time their points and means, and takes those of elements
+  // that are no longer leaves. The corners of the leaves must be known. False: stopped.
+  bool name();
+
+ private:
+  struct Share;
+  void forget_divided();
+  bool take_corners(NodeId leaf);
+  void take_own_points(const std::vector<NodeId>& leaves);
+  std::vector<Share> shares_of_mean(NodeId leaf, int32_t centroid) const;
+  void add_up_means(const std::vector<NodeId>& leaves, const std::vector<int32_t>& centroids);
+
+  State& state_;
+  Forest& forest_;
+  const StageTools& tools_;
+  CornerSampler& corners_;
+  NodeId named_ = 0;  // nodes before this one have been looked at
+};
+
+}  // namespace hrad
