@@ -68,10 +68,10 @@ int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
   return rays + batch.rays;
 }
 
-// 1, 4 or 16, none where the emitter isn't bright.
+// 1, 4 or 16, none where the emitter isn't worth sampling.
 int DirectLight::rays_wanted(const Emitter& e, bool hidden, Vec3 x, Vec3 normal) const {
   const double factor = Emitters::rough_factor(e, x, normal);
-  if (!emitters_.is_bright(e, factor)) return 0;
+  if (!emitters_.is_sampled(e, factor)) return 0;
   // Partly below the horizon, few points may miss all of it.
   if (dot(e.center - x, normal) < e.radius) return 16;
   const double light = e.brightness * factor;

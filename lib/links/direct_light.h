@@ -21,7 +21,9 @@ class DirectLight {
   DirectLight(const Forest& forest, const VisibilityEngine& engine, const Emitters& emitters,
               const LightGrid& grid, double noise);
 
-  // Appends one link per visible surface of every emitter that is bright there,
+  const Emitters& emitters() const { return emitters_; }
+
+  // Appends one link per visible surface of every emitter that is worth sampling there,
   // weight = form factor times visible fraction. The point lies on a surface, not lifted. Any
   // thread. Returns the number of rays.
   int64_t sample(const OrientedPoint& point, uint64_t key, std::vector<Link>& links) const;

@@ -92,12 +92,12 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
   for (Emitter& e : emitters_) finish(forest, e);
 }
 
-bool Emitters::can_be_bright(const Emitter& e, Vec3 center, double radius) const {
+bool Emitters::can_be_sampled(const Emitter& e, Vec3 center, double radius) const {
   const Vec3 d = e.center - center;
   const double above = radius - dot(d, e.normal);
   if (!(above > 0)) return false;
   const double distance = std::max(length(d) - radius, e.radius);
-  return is_bright(
+  return is_sampled(
       e, std::min(1.0, e.area * std::min(1.0, above / distance) / (pi * distance * distance)));
 }
 

@@ -38,10 +38,17 @@ class Emitters {
   bool bright(const Emitter& emitter, Vec3 x, Vec3 normal) const {
     return is_bright(emitter, rough_factor(emitter, x, normal));
   }
-  // False: at no point of this ball is the emitter bright.
-  bool can_be_bright(const Emitter& emitter, Vec3 center, double radius) const;
+  // Whether the emitter is to be sampled at a point: also where it is not quite bright, but may be
+  // so in the middle of a leaf that the point belongs to.
+  bool is_sampled(const Emitter& emitter, double factor) const {
+    return is_bright(emitter, factor * sampling_margin);
+  }
+  // False: at no point of this ball is the emitter sampled.
+  bool can_be_sampled(const Emitter& emitter, Vec3 center, double radius) const;
 
  private:
+  static constexpr double sampling_margin = 4;
+
   std::vector<Emitter> emitters_;
   std::vector<int32_t> of_root_;
   double least_bright_;

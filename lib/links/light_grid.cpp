@@ -53,7 +53,7 @@ int64_t LightGrid::find_emitters(const std::vector<OrientedPoint>& points, Cube&
   const double radius = 0.87 * size_;  // half the diagonal
   for (size_t e = 0; e < emitters_.all().size(); ++e) {
     const Emitter& emitter = emitters_.all()[e];
-    if (emitters_.can_be_bright(emitter, center, radius))
+    if (emitters_.can_be_sampled(emitter, center, radius))
       cube.candidates.push_back({static_cast<int32_t>(e), hidden(emitter, points, cube, rays)});
   }
   cube.points = std::vector<int32_t>();

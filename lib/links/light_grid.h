@@ -31,7 +31,7 @@ class LightGrid {
     int32_t emitter;
     bool hidden;  // no pilot ray met it
   };
-  // The emitters that can be bright in an open cube.
+  // The emitters that can be worth sampling in an open cube.
   const std::vector<Candidate>& at(const OrientedPoint& point) const {
     return cubes_[number_.at(key_of(point))].candidates;
   }

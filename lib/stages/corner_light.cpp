@@ -138,7 +138,7 @@ bool CornerSampler::sample() {
     value_.insert(value_.end(), r.value.begin(), r.value.end());
     state_.rays += r.rays;
   }
-  for (const OrientedPoint& point : points) direct.place.push_back(point.place);
+  place_.insert(place_.end(), points.begin(), points.end());
   wanted_.clear();
   return true;
 }
@@ -200,7 +200,9 @@ bool CornerSampler::exposed_within(const Node& node, Vec3* place) const {
   return false;
 }
 
-void drop_unnamed_corners(CornerLight& direct) {
+void CornerSampler::drop_what_is_unnamed() {
+  CornerLight& direct = state_.direct;
+  const Emitters& emitters = light_.emitters();
   constexpr int32_t unnamed = -1, named = -2;
   std::vector<int32_t> number(direct.corner_count(), unnamed);
   for (const auto& corners : direct.of_leaf)
@@ -210,10 +212,12 @@ void drop_unnamed_corners(CornerLight& direct) {
   for (size_t k = 0; k < number.size(); ++k) {
     if (number[k] == unnamed) continue;
     const uint32_t begin = direct.first[k], end = direct.first[k + 1];
-    std::copy(direct.links.begin() + begin, direct.links.begin() + end,
-              direct.links.begin() + static_cast<std::ptrdiff_t>(links));
     direct.first[kept] = static_cast<uint32_t>(links);
-    links += end - begin;
+    for (uint32_t l = begin; l < end; ++l) {
+      const Emitter& emitter = emitters.all()[emitters.of_root(direct.links[l].source)];
+      if (emitters.bright(emitter, place_[k].place, place_[k].normal))
+        direct.links[links++] = direct.links[l];
+    }
     number[k] = static_cast<int32_t>(kept++);
   }
   direct.first[kept] = static_cast<uint32_t>(links);

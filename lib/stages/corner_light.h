@@ -39,6 +39,10 @@ class CornerSampler {
   // one exposed point within. False: nothing exposed was found. Any thread.
   bool points_of_exposed(NodeId element, const LatticePoint corner[3], Vec3 place[3]) const;
 
+  // Takes out the points that no leaf names, those that only showed that nothing need be divided,
+  // and links from emitters that are not quite bright where they were sampled. Once, at the end.
+  void drop_what_is_unnamed();
+
  private:
   struct Wanted {
     int32_t surface;
@@ -60,10 +64,8 @@ class CornerSampler {
   std::unordered_map<uint64_t, int32_t> number_;  // looked up only, never walked through
   std::vector<Wanted> wanted_;
   std::vector<double> value_;
-  double reached_ = 0;  // share of all sampling that is done, guessed
+  std::vector<OrientedPoint> place_;  // per sampled point
+  double reached_ = 0;                // share of all sampling that is done, guessed
 };
-
-// Takes out the corners that no leaf names: those that only showed that nothing need be divided.
-void drop_unnamed_corners(CornerLight& direct);
 
 }  // namespace hrad

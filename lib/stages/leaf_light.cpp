@@ -28,6 +28,13 @@ void coordinates_in(const Triangle& t, Vec3 point, double* x, double* y) {
 
 }  // namespace
 
+bool has_direct_light(const Forest& forest, const Emitters& emitters, int32_t emitter,
+                      NodeId leaf) {
+  const Node& node = forest.nodes[leaf];
+  return emitters.bright(emitters.all()[emitter], forest.triangle(node).centroid(),
+                         forest.surfaces[node.surface].normal);
+}
+
 struct LeafLight::Share {
   int32_t number;  // of a sampled point
   double weight;
@@ -165,7 +172,8 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
         double sum = 0;
         const NodeId source = all[at].source;
         for (; at < all.size() && all[at].source == source; ++at) sum += all[at].weight;
-        r.links.push_back({source, static_cast<float>(sum)});
+        if (has_direct_light(forest_, emitters_, emitters_.of_root(source), leaves[k]))
+          r.links.push_back({source, static_cast<float>(sum)});
       }
       r.end.push_back(r.links.size());
     }

@@ -25,6 +25,9 @@ class RowMesh {
   // new_cells: those without a row. False: stopped.
   bool divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells);
 
+  // Drops the points and links that no leaf needs: the mesh is as it is to be.
+  void drop_what_is_unnamed() { corners_.drop_what_is_unnamed(); }
+
  private:
   NodeId add_children(NodeId parent);
   void measure_exposure(NodeId from);

@@ -9,6 +9,7 @@
 #include "base/low_discrepancy.h"
 #include "base/triangle_points.h"
 #include "links/element.h"
+#include "stages/leaf_light.h"
 
 namespace hrad {
 namespace {
@@ -16,25 +17,6 @@ namespace {
 constexpr int64_t rows_of_a_task = 32;
 // Put in place together. Few, so that little stands beside the table.
 constexpr int64_t rows_of_a_batch = 8192;
-
-// Share of an emitter's light that corners bring to a point of a leaf: what is left comes by rays.
-double direct_share(const State& state, const Emitters& emitters, int32_t emitter, NodeId leaf,
-                    double u, double v) {
-  const auto& corner = state.direct.of_leaf[leaf];
-  const Node& node = state.forest.nodes[leaf];
-  double x, y;
-  element_coordinates(node, u, v, &x, &y);
-  const double weight[3] = {1 - x - y, x, y};
-  double all = 0, direct = 0;
-  for (int c = 0; c < 3; ++c) {
-    if (corner[c] < 0) continue;
-    all += weight[c];
-    if (emitters.bright(emitters.all()[emitter], state.direct.place[corner[c]],
-                        state.forest.surfaces[node.surface].normal))
-      direct += weight[c];
-  }
-  return all > 0 ? direct / all : 0;
-}
 
 class RowTracer {
  public:
@@ -67,28 +49,25 @@ class RowTracer {
                                             frame.cosine_direction(p[2], p[3]), 0);
       const NodeId source = forest.leaf_met(hit);
       if (source < 0) continue;
-      double worth = 1;
+      // Light from there to this leaf has links of its own.
       const int32_t emitter = emitters_.of_root(forest.nodes[source].surface);
       if (emitter >= 0) {
         double u, v;
         root_coordinates(node, x, y, &u, &v);
-        worth -= direct_share(state_, emitters_, emitter, forest.leaf_at(node.surface, u, v), u, v);
-        if (!(worth > 0)) continue;
+        if (has_direct_light(forest, emitters_, emitter, forest.leaf_at(node.surface, u, v)))
+          continue;
       }
       if (forest.nodes[source].exposed < 1 &&
           tools_.exposure.under_a_back(hit.patch, hit.back,
                                        forest.scene->triangle(hit.patch).at(hit.u, hit.v)))
         continue;
-      hits_.push_back({source, static_cast<float>(worth)});
+      hits_.push_back(source);
     }
-    std::sort(hits_.begin(), hits_.end(), [](const Link& a, const Link& b) {
-      return a.source != b.source ? a.source < b.source : a.weight < b.weight;
-    });
+    std::sort(hits_.begin(), hits_.end());
     for (size_t k = 0; k < hits_.size();) {
-      double sum = 0;
-      const NodeId source = hits_[k].source;
-      for (; k < hits_.size() && hits_[k].source == source; ++k) sum += hits_[k].weight;
-      links.push_back({source, static_cast<float>(sum / counted)});
+      const size_t first = k;
+      while (k < hits_.size() && hits_[k] == hits_[first]) ++k;
+      links.push_back({hits_[first], static_cast<float>(static_cast<double>(k - first) / counted)});
     }
   }
 
@@ -99,7 +78,7 @@ class RowTracer {
   const StageTools& tools_;
   const RowSettings& settings_;
   const Emitters& emitters_;
-  std::vector<Link> hits_;
+  std::vector<NodeId> hits_;
 };
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace hrad {
 
 // Gives these cells their rows of so many rays each, state.links[cell]: cosine-distributed rays
 // from the exposed part, spread evenly over it and its hemisphere. Each is a link to the leaf that
-// it meets, of weight 1/rays but for what the corners have of that leaf as a bright emitter; one
-// that meets nothing, a blocker or a black back is none. False: stopped.
+// it meets, of weight 1/rays; one that meets nothing, a blocker, a black back, or an emitter whose
+// light comes by links of its own, is none. False: stopped.
 bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
                 const Emitters& emitters, const std::vector<NodeId>& cells,
                 const std::vector<int>& rays_of_cell, StageMemory& memory);

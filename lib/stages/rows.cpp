@@ -143,8 +143,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   }
   if (!trace_rows(state, part_of(tools, 0.6, 1), settings, emitters, state.cells, rays, memory))
     return false;
-  state.direct.place = std::vector<Vec3>();
-  drop_unnamed_corners(state.direct);
+  mesh.drop_what_is_unnamed();
   reset_to_emission(state);
   shrink_to_fit(state);
   memory.settle();

@@ -34,7 +34,6 @@ struct CornerLight {
     float x, y;
   };
   std::vector<OwnPoint> own;
-  std::vector<Vec3> place;  // per point: where it was sampled; empty once rows are traced
   size_t corner_count() const { return first.empty() ? 0 : first.size() - 1; }
 };
 

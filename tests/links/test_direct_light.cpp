@@ -154,7 +154,7 @@ void the_grid_misses_none() {
       const Vec3 x = center + random.in_cube(1) * (radius / 1.7321);
       const bool is = lit.emitters.bright(lamp, x, direction);
       (is ? bright : dim) += 1;
-      if (is) CHECK(lit.emitters.can_be_bright(lamp, center, radius));
+      if (is) CHECK(lit.emitters.can_be_sampled(lamp, center, radius));
     }
     CHECK(bright > 20 && dim > 20);
   }
