@@ -15,7 +15,14 @@ namespace hrad {
 namespace {
 
 constexpr int most_bands = 16;
-constexpr int measured_patches = 512;
+// Patches are drawn batch by batch until the error is known to this share of itself, or is
+// known to be far below the accuracy.
+constexpr int64_t patches_of_a_batch = 512;
+constexpr int most_batches = 4;
+constexpr double precise_share = 0.35, precise_enough = 0.2;
+// Of each half of a patch; a point has one packet of shadow rays besides.
+constexpr int cosine_rays_of_a_point = 4;
+constexpr double points_at_one_percent = 64, least_points = 16, most_points = 256;
 constexpr int64_t rays_of_the_balance = 131072;
 
 Vec3 point_of(const Triangle& t, uint64_t hash) {
@@ -24,7 +31,7 @@ Vec3 point_of(const Triangle& t, uint64_t hash) {
   return t.at(u, v);
 }
 
-// One drawn patch, all bands together.
+// One drawn patch, all bands together, over the chance that it was drawn with.
 struct Residual {
   double square = 0;  // of the difference between solved and measured; noise may make it negative
   double solved = 0;  // radiosity squared
@@ -35,7 +42,7 @@ struct Residual {
 // The patch is measured twice, independently: the product of the two differences has the square of
 // the true one as its mean, without a bias by noise.
 Residual residual_of(const State& state, const StageTools& tools, const RayGather& rays,
-                     NodeId root, uint64_t key, int rays_of_a_half, bool reflected) {
+                     NodeId root, uint64_t key, int points_of_a_half, bool reflected) {
   const Scene& scene = *state.forest.scene;
   const Surface& surface = state.forest.surfaces[root];
   const int bands = state.bands;
@@ -44,18 +51,15 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
   const Draw emitters = rays.emitters_near(element);
   double sum[2][most_bands] = {};
   Residual r;
-  for (int half = 0; half < 2; ++half)
-    for (uint32_t k = 0; k < static_cast<uint32_t>(rays_of_a_half); ++k) {
-      // Points and directions spread evenly together, and the points on the emitters.
-      double p[4], light[4], value[most_bands];
-      low_discrepancy_point(mix(key, static_cast<uint64_t>(half), 1), k, p);
-      low_discrepancy_point(mix(key, static_cast<uint64_t>(half), 2), k, light);
-      double u, v;
+  for (uint64_t half = 0; half < 2; ++half)
+    for (uint32_t k = 0; k < static_cast<uint32_t>(points_of_a_half); ++k) {
+      double p[4], value[most_bands], u, v;
+      low_discrepancy_point(mix(key, half, 1), k, p);
       even_in_triangle(p[0], p[1], &u, &v);
       const Vec3 on = element.corners.at(u, v);
       if (can_be_sealed && tools.exposure.sealed(surface.patch, surface.side, on)) continue;
-      r.rays += rays.sample_once(on + surface.normal * tools.engine.offset(), surface.normal, p + 2,
-                                 light, emitters, value);
+      r.rays += rays.sample(on + surface.normal * tools.engine.offset(), surface.normal,
+                            mix(key, half, 2), k, cosine_rays_of_a_point, emitters, value);
       for (int b = 0; b < bands; ++b) sum[half][b] += value[b];
     }
   const double exposed = state.forest.nodes[root].exposed;
@@ -66,7 +70,7 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
         factor * exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
     double difference[2];
     for (int half = 0; half < 2; ++half)
-      difference[half] = solved - factor * sum[half][b] / rays_of_a_half;
+      difference[half] = solved - factor * sum[half][b] / points_of_a_half;
     r.square += difference[0] * difference[1];
     r.solved += solved * solved;
     r.signed_sum += (difference[0] + difference[1]) / 2;
@@ -75,49 +79,67 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
   return r;
 }
 
-}  // namespace
+// The patches that can be drawn: those that emit nothing, by area and by the light on them, where
+// errors are larger; in a scene that reflects nothing, by irradiance.
+struct Patches {
+  std::vector<NodeId> roots;
+  std::vector<double> areas, weights;
+  bool reflected = false;
+  double returned = 0;  // share of the power leaving all surfaces that is reflected light
+  explicit Patches(const State& state);
+};
 
-ErrorEstimate estimate_error(const State& state, const StageTools& tools, double accuracy) {
+Patches::Patches(const State& state) {
   const Scene& scene = *state.forest.scene;
   const Forest& forest = state.forest;
-  bool reflected = false;  // black scenes are measured by their irradiance
-  double reflecting = 0, area = 0;
-  std::vector<double> weights;
-  std::vector<NodeId> roots;
+  const size_t bands = static_cast<size_t>(state.bands);
+  std::vector<double> emitted(bands, 0.0), sent_back(bands, 0.0);
   for (NodeId root = 0; root < forest.surface_count(); ++root) {
     const Surface& surface = forest.surfaces[root];
-    double largest = 0;
-    for (int b = 0; b < scene.bands; ++b)
-      largest = std::max(largest,
-                         scene.reflectance[static_cast<size_t>(surface.patch) * scene.bands + b]);
-    reflecting += largest * surface.area;
-    area += surface.area;
+    const double* reflectance = &scene.reflectance[static_cast<size_t>(surface.patch) * bands];
+    const double largest = *std::max_element(reflectance, reflectance + bands);
+    for (size_t b = 0; b < bands; ++b) {
+      emitted[b] += surface.area * scene.emission[static_cast<size_t>(surface.patch) * bands + b];
+      sent_back[b] += surface.area * forest.nodes[root].exposed * reflectance[b] *
+                      state.irradiance[static_cast<size_t>(root) * bands + b];
+    }
     if (scene.emits(surface.patch)) continue;
     reflected = reflected || largest > 0;
-    weights.push_back(surface.area);
     roots.push_back(root);
+    areas.push_back(surface.area);
   }
-  ErrorEstimate estimate;
-  if (roots.empty()) return estimate;
-  const Draw draw(weights);
-  const RayGather rays(state, tools.engine);
-  const double wanted = 128 * (0.02 / accuracy) * (0.02 / accuracy);
-  const int rays_of_a_half = static_cast<int>(std::max(64.0, std::min(512.0, wanted)));
-  std::vector<Residual> residuals(measured_patches);
-  tools.team.for_each(measured_patches, [&](int64_t k, int) {
-    const uint64_t h = mix(tools.oracle.seed, static_cast<uint64_t>(k), 0x6572726f72u);
-    const size_t pick = draw.pick((static_cast<double>(k) + unit_interval(h)) / measured_patches);
-    residuals[k] = residual_of(state, tools, rays, roots[pick], h, rays_of_a_half, reflected);
-  });
+  for (size_t b = 0; b < bands; ++b)
+    if (sent_back[b] > 0)
+      returned = std::max(returned, std::min(0.99, sent_back[b] / (emitted[b] + sent_back[b])));
+  double squares = 0, dark_area = 0;
+  std::vector<double> square;
+  for (size_t k = 0; k < roots.size(); ++k) {
+    const size_t patch = static_cast<size_t>(forest.surfaces[roots[k]].patch) * bands;
+    double sum = 0;
+    for (size_t b = 0; b < bands; ++b) {
+      const double light = (reflected ? scene.reflectance[patch + b] : 1.0) *
+                           forest.nodes[roots[k]].exposed *
+                           state.irradiance[static_cast<size_t>(roots[k]) * bands + b];
+      sum += light * light;
+    }
+    square.push_back(sum);
+    squares += areas[k] * sum;
+    dark_area += areas[k];
+  }
+  for (size_t k = 0; k < roots.size(); ++k)
+    weights.push_back(areas[k] * (squares > 0 ? square[k] * dark_area / squares + 1 : 1));
+}
+
+// What so many residuals tell.
+void evaluate(const std::vector<Residual>& residuals, double returned, ErrorEstimate& estimate) {
   double square = 0, solved = 0, bias = 0, solved_sum = 0;
   for (const Residual& r : residuals) {
     square += r.square;
     solved += r.solved;
     bias += r.signed_sum;
     solved_sum += r.solved_sum;
-    estimate.rays += r.rays;
   }
-  if (!(solved > 0)) return estimate;
+  if (!(solved > 0)) return;
   const double mean_square = square / solved, relative_bias = bias / solved_sum;
   double spread_of_square = 0, spread_of_bias = 0;
   for (const Residual& r : residuals) {
@@ -128,8 +150,7 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
   }
   // The mean error is reflected on and on, the rest averages out at the next bounce. The square of
   // a noisy mean is too large by its variance.
-  const double mean_reflectance = reflected ? std::min(0.99, reflecting / area) : 0.0;
-  const double gain = 1 / ((1 - mean_reflectance) * (1 - mean_reflectance)) - 1;
+  const double gain = 1 / ((1 - returned) * (1 - returned)) - 1;
   const double bias_square = relative_bias * relative_bias - spread_of_bias;
   const double variance = std::max(0.0, mean_square + gain * bias_square);
   estimate.error = std::sqrt(variance);
@@ -138,6 +159,39 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
                                        (4 * relative_bias * relative_bias + 2 * spread_of_bias));
   estimate.standard_error =
       std::min(std::sqrt(error_of_square), error_of_square / (2 * std::max(estimate.error, 1e-12)));
+}
+
+}  // namespace
+
+ErrorEstimate estimate_error(const State& state, const StageTools& tools, double accuracy) {
+  ErrorEstimate estimate;
+  const Patches patches(state);
+  if (patches.roots.empty()) return estimate;
+  const Draw draw(patches.weights);
+  const RayGather rays(state, tools.engine);
+  const int points = static_cast<int>(
+      std::max(least_points, std::min(most_points, points_at_one_percent * 0.01 / accuracy)));
+  std::vector<Residual> residuals;
+  for (int batch = 0; batch < most_batches; ++batch) {
+    const size_t before = residuals.size();
+    residuals.resize(before + patches_of_a_batch);
+    tools.team.for_each(patches_of_a_batch, [&](int64_t k, int) {
+      const size_t number = before + static_cast<size_t>(k);
+      const uint64_t h = mix(tools.oracle.seed, number, 0x6572726f72u);
+      const size_t pick =
+          draw.pick((static_cast<double>(k) + unit_interval(h)) / patches_of_a_batch);
+      Residual r =
+          residual_of(state, tools, rays, patches.roots[pick], h, points, patches.reflected);
+      const double worth = patches.areas[pick] / patches.weights[pick];
+      for (double* value : {&r.square, &r.solved, &r.signed_sum, &r.solved_sum}) *value *= worth;
+      residuals[number] = r;
+    });
+    for (size_t k = before; k < residuals.size(); ++k) estimate.rays += residuals[k].rays;
+    evaluate(residuals, patches.returned, estimate);
+    if (estimate.standard_error <
+        std::max(precise_share * estimate.error, precise_enough * accuracy))
+      break;
+  }
   return estimate;
 }
 

@@ -179,13 +179,12 @@ void Solver::query_sensors(int64_t count, const double* xyz, const double* norma
     }
     double mean[most_bands] = {}, squares[most_bands] = {};
     for (int group = 0; group < groups; ++group) {
-      double sum[most_bands] = {}, unused[most_bands] = {};
-      gather.sample(x, n, mix(key.value(), static_cast<uint64_t>(group)), rays / groups, sum,
-                    unused);
+      double value[most_bands];
+      gather.mean(x, n, mix(key.value(), static_cast<uint64_t>(group)),
+                  rays / (groups * RayGather::shadow_rays), value);
       for (int b = 0; b < bands; ++b) {
-        const double value = sum[b] / (rays / groups);
-        mean[b] += value / groups;
-        squares[b] += value * value / groups;
+        mean[b] += value[b] / groups;
+        squares[b] += value[b] * value[b] / groups;
       }
     }
     for (int b = 0; b < bands; ++b) {

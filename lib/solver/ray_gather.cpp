@@ -62,50 +62,44 @@ Draw RayGather::emitters_near(const Element& receiver) const {
 }
 
 // Emission that arrives from a point of an emitter at distance d may be found by a cosine ray and
-// by a shadow ray; both together count it once, and neither makes large values where the emitter is
-// near: the balance heuristic (Veach and Guibas, SIGGRAPH '95). This is what a sample of either
-// kind is worth, as irradiance per emission.
-double RayGather::share(size_t emitter, double chance, double distance2, double at_x,
-                        double at_y) const {
+// by a shadow ray; all together count it once, and none makes large values where the emitter is
+// near: the balance heuristic (Veach and Guibas, SIGGRAPH '95). This is what one ray of either kind
+// is worth, as irradiance per emission.
+double RayGather::share(size_t emitter, double chance, double distance2, double at_x, double at_y,
+                        int cosine_rays) const {
   const double cosine = at_x / pi;
   const double area = state_.forest.surfaces[emitters_[emitter]].area;
-  return cosine / (chance * distance2 / (area * at_y) + cosine);
+  return cosine / (shadow_rays * chance * distance2 / (area * at_y) + cosine_rays * cosine);
 }
 
-int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, int rays, double* sum,
-                          double* squares) const {
-  const int bands = state_.bands;
-  const double turn = unit_interval(mix(key, 0x7475726eu));
-  int64_t traced = 0;
-  for (int k = 0; k < rays; ++k) {
-    const uint64_t h = mix(key, static_cast<uint64_t>(k));
-    // Directions from a Hammersley set, jittered in one coordinate and turned in the other.
-    const double u = (k + unit_interval(mix(h, 1))) / rays;
-    const double v = reversed_bits(static_cast<uint32_t>(k)) * (1.0 / 4294967296.0) + turn;
-    const double hemisphere[2] = {std::min(u, 1 - 1e-12), v < 1 ? v : v - 1};
-    const double light[3] = {(k + unit_interval(mix(h, 3))) / rays, unit_interval(mix(h, 4)),
-                             unit_interval(mix(h, 5))};
-    double value[most_bands];
-    traced += sample_once(x, n, hemisphere, light, by_power_, value);
-    for (int b = 0; b < bands; ++b) {
-      sum[b] += value[b];
-      squares[b] += value[b] * value[b];
-    }
-  }
-  return traced;
-}
-
-int64_t RayGather::sample_once(Vec3 x, Vec3 n, const double hemisphere[2], const double light[3],
-                               const Draw& emitters, double* value) const {
+int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_rays,
+                          const Draw& emitters, double* value) const {
   std::fill(value, value + state_.bands, 0.0);
-  add_by_cosine_ray(x, n, hemisphere, emitters, value);
-  if (emitters_.empty()) return 1;
-  return 1 + add_by_shadow_ray(x, n, light, emitters, value);
+  for (int j = 0; j < cosine_rays; ++j) {
+    double p[4];
+    low_discrepancy_point(mix(key, 1),
+                          k * static_cast<uint32_t>(cosine_rays) + static_cast<uint32_t>(j), p);
+    add_by_cosine_ray(x, n, p, cosine_rays, emitters, value);
+  }
+  if (emitters_.empty()) return cosine_rays;
+  return cosine_rays +
+         add_by_shadow_rays(x, n, mix(key, 2), k * shadow_rays, cosine_rays, emitters, value);
+}
+
+int64_t RayGather::mean(Vec3 x, Vec3 n, uint64_t key, int samples, double* value) const {
+  std::fill(value, value + state_.bands, 0.0);
+  int64_t rays = 0;
+  for (int k = 0; k < samples; ++k) {
+    double one[most_bands];
+    rays += sample(x, n, key, static_cast<uint32_t>(k), shadow_rays, by_power_, one);
+    for (int b = 0; b < state_.bands; ++b) value[b] += one[b] / samples;
+  }
+  return rays;
 }
 
 // Reflected light, and the share of emitted light that such rays are to find.
-void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], const Draw& emitters,
-                                  double* value) const {
+void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], int cosine_rays,
+                                  const Draw& emitters, double* value) const {
   const Scene& scene = *state_.forest.scene;
   const Forest& forest = state_.forest;
   const int bands = state_.bands;
@@ -118,34 +112,47 @@ void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], co
   const int32_t e = emitter_of_[root];
   const double emitted =
       e >= 0 ? share(static_cast<size_t>(e), emitters.chance(static_cast<size_t>(e)), hit.t * hit.t,
-                     dot(direction, n), std::fabs(dot(direction, forest.surfaces[root].normal)))
+                     dot(direction, n), std::fabs(dot(direction, forest.surfaces[root].normal)),
+                     cosine_rays)
              : 0.0;
   for (int b = 0; b < bands; ++b) {
     const double emission = scene.emission[static_cast<size_t>(hit.patch) * bands + b];
-    value[b] +=
-        state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission + emitted * emission;
+    value[b] += (state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission) / cosine_rays +
+                emitted * emission;
   }
 }
 
-int RayGather::add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Draw& emitters,
-                                 double* value) const {
+int64_t RayGather::add_by_shadow_rays(Vec3 x, Vec3 n, uint64_t key, uint32_t first, int cosine_rays,
+                                      const Draw& emitters, double* value) const {
   const Scene& scene = *state_.forest.scene;
   const Forest& forest = state_.forest;
-  const size_t e = emitters.pick(light[0]);
-  const Surface& emitter = forest.surfaces[emitters_[e]];
-  double su = light[1], sv = light[2];
-  fold_into_triangle(su, sv);
-  const Vec3 y = forest.root_triangle(emitters_[e]).at(su, sv) + emitter.normal * engine_.offset();
-  const Vec3 d = y - x;
-  const double d2 = dot(d, d), at_x = dot(d, n), at_y = -dot(d, emitter.normal);
-  if (!(at_x > 0 && at_y > 0 && d2 > 0)) return 0;
-  const Hit first = engine_.nearest(x, d, 0);
-  if (first.patch >= 0 && first.t < 1) return 1;
-  const double distance = std::sqrt(d2);
-  const double worth = share(e, emitters.chance(e), d2, at_x / distance, at_y / distance);
-  for (int b = 0; b < state_.bands; ++b)
-    value[b] += worth * scene.emission[static_cast<size_t>(emitter.patch) * state_.bands + b];
-  return 1;
+  SegmentPacket packet;
+  const Vec3 from = x - engine_.center();
+  double worth[shadow_rays];
+  int32_t patch[shadow_rays];
+  for (int j = 0; j < shadow_rays; ++j) {
+    double p[4], u, v;
+    low_discrepancy_point(key, first + static_cast<uint32_t>(j), p);
+    const size_t e = emitters.pick(p[0]);
+    const Surface& emitter = forest.surfaces[emitters_[e]];
+    even_in_triangle(p[1], p[2], &u, &v);
+    const Vec3 y = forest.root_triangle(emitters_[e]).at(u, v) + emitter.normal * engine_.offset();
+    const Vec3 d = y - x;
+    const double d2 = dot(d, d), at_x = dot(d, n), at_y = -dot(d, emitter.normal);
+    packet.set(j, from, y - engine_.center());
+    if (!(at_x > 0 && at_y > 0 && d2 > 0)) continue;
+    packet.active |= 1u << j;
+    const double distance = std::sqrt(d2);
+    worth[j] = share(e, emitters.chance(e), d2, at_x / distance, at_y / distance, cosine_rays);
+    patch[j] = emitter.patch;
+  }
+  const uint32_t seen = packet.active & ~engine_.blocked(packet);
+  for (int j = 0; j < shadow_rays; ++j) {
+    if (!(seen >> j & 1)) continue;
+    for (int b = 0; b < state_.bands; ++b)
+      value[b] += worth[j] * scene.emission[static_cast<size_t>(patch[j]) * state_.bands + b];
+  }
+  return __builtin_popcount(packet.active);
 }
 
 }  // namespace hrad

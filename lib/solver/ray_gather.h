@@ -20,24 +20,24 @@ class RayGather {
   // those that give power, none is never picked.
   Draw emitters_near(const Element& receiver) const;
 
-  // Adds `rays` samples of each kind at x (on or off a surface; the caller has moved it off) with
-  // normal n to sums per band: their sum and the sum of their squares, one sample being what one
-  // shadow ray and one cosine ray bring together. stratum of strata: this call's part of a larger
-  // set of samples spread evenly. Any thread. Returns the number of rays traced.
-  int64_t sample(Vec3 x, Vec3 n, uint64_t key, int rays, double* sum, double* squares) const;
+  static constexpr int shadow_rays = 16;  // of a sample: one packet
 
-  // One sample of each kind: what it brings, bands values. hemisphere: the cosine ray's two
-  // coordinates in the unit square; light: the shadow ray's three, the first of which picks the
-  // emitter. Returns the number of rays traced.
-  int64_t sample_once(Vec3 x, Vec3 n, const double hemisphere[2], const double light[3],
-                      const Draw& emitters, double* value) const;
+  // Irradiance at x (on or off a surface; the caller has moved it off) with normal n, bands values:
+  // sample number k of a sequence that fills hemisphere and emitters evenly, of one packet of
+  // shadow rays and so many cosine rays. Any thread. Returns the number of rays traced.
+  int64_t sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_rays, const Draw& emitters,
+                 double* value) const;
+
+  // The mean of so many samples, emitters picked by power.
+  int64_t mean(Vec3 x, Vec3 n, uint64_t key, int samples, double* value) const;
 
  private:
-  void add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], const Draw& emitters,
-                         double* value) const;
-  int add_by_shadow_ray(Vec3 x, Vec3 n, const double light[3], const Draw& emitters,
-                        double* value) const;
-  double share(size_t emitter, double chance, double distance2, double at_x, double at_y) const;
+  void add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], int cosine_rays,
+                         const Draw& emitters, double* value) const;
+  int64_t add_by_shadow_rays(Vec3 x, Vec3 n, uint64_t key, uint32_t first, int cosine_rays,
+                             const Draw& emitters, double* value) const;
+  double share(size_t emitter, double chance, double distance2, double at_x, double at_y,
+               int cosine_rays) const;
 
   const State& state_;
   const VisibilityEngine& engine_;
