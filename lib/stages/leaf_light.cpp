@@ -35,9 +35,15 @@ bool has_direct_light(const Forest& forest, const Emitters& emitters, int32_t em
                          forest.surfaces[node.surface].normal);
 }
 
-struct LeafLight::Share {
-  int32_t number;  // of a sampled point
-  double weight;
+// Of the mean of a leaf: numbers of sampled points, and their weights.
+struct LeafLight::Shares {
+  int count = 0;
+  int32_t number[7];
+  double weight[7];
+  void add(int32_t point, double share) {
+    number[count] = point;
+    weight[count++] = share;
+  }
 };
 
 bool LeafLight::name() {
@@ -121,13 +127,13 @@ void LeafLight::take_own_points(const std::vector<NodeId>& leaves) {
   }
 }
 
-std::vector<LeafLight::Share> LeafLight::shares_of_mean(NodeId leaf, int32_t centroid) const {
+LeafLight::Shares LeafLight::shares_of_mean(NodeId leaf, int32_t centroid) const {
   const Node& node = forest_.nodes[leaf];
   const auto& points = state_.direct.of_leaf[leaf];
-  std::vector<Share> shares;
+  Shares shares;
   if (points[0] < 0) return shares;
   if (centroid < 0 || corners_.value(centroid) < 0) {
-    for (int32_t number : points) shares.push_back({number, 1.0 / 3});
+    for (int32_t number : points) shares.add(number, 1.0 / 3);
     return shares;
   }
   LatticePoint corner[3];
@@ -138,10 +144,9 @@ std::vector<LeafLight::Share> LeafLight::shares_of_mean(NodeId leaf, int32_t cen
     middles[c] = corners_.find(node.surface, middle(corner[c], corner[(c + 1) % 3]));
     known = known && middles[c] >= 0 && corners_.value(middles[c]) >= 0;
   }
-  for (int32_t number : points)
-    shares.push_back({number, known ? corner_of_seven : corner_of_four});
-  for (int c = 0; c < 3 && known; ++c) shares.push_back({middles[c], middle_of_seven});
-  shares.push_back({centroid, known ? centroid_of_seven : centroid_of_four});
+  for (int32_t number : points) shares.add(number, known ? corner_of_seven : corner_of_four);
+  for (int c = 0; c < 3 && known; ++c) shares.add(middles[c], middle_of_seven);
+  shares.add(centroid, known ? centroid_of_seven : centroid_of_four);
   return shares;
 }
 
@@ -162,10 +167,12 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
     for (int64_t k = task * leaves_of_a_task; k < std::min(count, (task + 1) * leaves_of_a_task);
          ++k) {
       all.clear();
-      for (const Share& share : shares_of_mean(leaves[k], centroids[k]))
-        for (uint32_t l = direct.first[share.number]; l < direct.first[share.number + 1]; ++l)
-          all.push_back(
-              {direct.links[l].source, static_cast<float>(share.weight * direct.links[l].weight)});
+      const Shares shares = shares_of_mean(leaves[k], centroids[k]);
+      for (int p = 0; p < shares.count; ++p)
+        for (uint32_t l = direct.first[shares.number[p]]; l < direct.first[shares.number[p] + 1];
+             ++l)
+          all.push_back({direct.links[l].source,
+                         static_cast<float>(shares.weight[p] * direct.links[l].weight)});
       std::stable_sort(all.begin(), all.end(),
                        [](const Link& a, const Link& b) { return a.source < b.source; });
       for (size_t at = 0; at < all.size();) {

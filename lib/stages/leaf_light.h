@@ -27,11 +27,11 @@ class LeafLight {
   bool name();
 
  private:
-  struct Share;
+  struct Shares;
   void forget_divided();
   bool take_corners(NodeId leaf);
   void take_own_points(const std::vector<NodeId>& leaves);
-  std::vector<Share> shares_of_mean(NodeId leaf, int32_t centroid) const;
+  Shares shares_of_mean(NodeId leaf, int32_t centroid) const;
   void add_up_means(const std::vector<NodeId>& leaves, const std::vector<int32_t>& centroids);
 
   State& state_;
