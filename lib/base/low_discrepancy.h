@@ -59,19 +59,33 @@ struct SobolTables {
 };
 inline constexpr SobolTables sobol_tables;
 
+// The sequence of a key, for who wants many of its points.
+class LowDiscrepancy {
+ public:
+  explicit LowDiscrepancy(uint64_t key) : block_(static_cast<uint32_t>(mix(key, 4))) {
+    for (int d = 0; d < 4; ++d)
+      seed_[d] = static_cast<uint32_t>(mix(key, static_cast<uint64_t>(d)) >> 32);
+  }
+
+  void point(uint32_t k, double point[4]) const {
+    // From a block of the sequence that the key picks, in an order of its own: parts of it are as
+    // good as its beginning.
+    const uint32_t index = owen_scrambled(k, block_);
+    uint32_t x[4] = {reversed_bits(index), 0, 0, 0};
+    for (int d = 0; d < 3; ++d)
+      for (int byte = 0; byte < 4; ++byte)
+        x[d + 1] ^= sobol_tables.of[d][byte][index >> (8 * byte) & 255];
+    for (int d = 0; d < 4; ++d)
+      point[d] = (owen_scrambled(x[d], seed_[d]) + 0.5) * (1.0 / 4294967296.0);
+  }
+
+ private:
+  uint32_t block_, seed_[4];
+};
+
 // Point k of the sequence of this key.
 inline void low_discrepancy_point(uint64_t key, uint32_t k, double point[4]) {
-  // From a block of the sequence that the key picks, in an order of its own: parts of it are as
-  // good as its beginning.
-  const uint32_t index = owen_scrambled(k, static_cast<uint32_t>(mix(key, 4)));
-  uint32_t x[4] = {reversed_bits(index), 0, 0, 0};
-  for (int d = 0; d < 3; ++d)
-    for (int byte = 0; byte < 4; ++byte)
-      x[d + 1] ^= sobol_tables.of[d][byte][index >> (8 * byte) & 255];
-  for (int d = 0; d < 4; ++d) {
-    const uint32_t seed = static_cast<uint32_t>(mix(key, static_cast<uint64_t>(d)) >> 32);
-    point[d] = (owen_scrambled(x[d], seed) + 0.5) * (1.0 / 4294967296.0);
-  }
+  LowDiscrepancy(key).point(k, point);
 }
 
 }  // namespace hrad

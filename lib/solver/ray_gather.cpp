@@ -75,10 +75,10 @@ double RayGather::share(size_t emitter, double chance, double distance2, double 
 int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_rays,
                           const Draw& emitters, double* value) const {
   std::fill(value, value + state_.bands, 0.0);
+  const LowDiscrepancy directions(mix(key, 1));
   for (int j = 0; j < cosine_rays; ++j) {
     double p[4];
-    low_discrepancy_point(mix(key, 1),
-                          k * static_cast<uint32_t>(cosine_rays) + static_cast<uint32_t>(j), p);
+    directions.point(k * static_cast<uint32_t>(cosine_rays) + static_cast<uint32_t>(j), p);
     add_by_cosine_ray(x, n, p, cosine_rays, emitters, value);
   }
   if (emitters_.empty()) return cosine_rays;
@@ -130,9 +130,10 @@ int64_t RayGather::add_by_shadow_rays(Vec3 x, Vec3 n, uint64_t key, uint32_t fir
   const Vec3 from = x - engine_.center();
   double worth[shadow_rays];
   int32_t patch[shadow_rays];
+  const LowDiscrepancy points(key);
   for (int j = 0; j < shadow_rays; ++j) {
     double p[4], u, v;
-    low_discrepancy_point(key, first + static_cast<uint32_t>(j), p);
+    points.point(first + static_cast<uint32_t>(j), p);
     const size_t e = emitters.pick(p[0]);
     const Surface& emitter = forest.surfaces[emitters_[e]];
     even_in_triangle(p[1], p[2], &u, &v);

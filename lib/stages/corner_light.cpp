@@ -93,7 +93,7 @@ bool CornerSampler::sample() {
   struct Result {
     std::vector<Link> links;
     std::vector<size_t> end;  // of each corner's links
-    std::vector<double> value;
+    std::vector<float> value;
     int64_t rays = 0;
   };
   std::vector<OrientedPoint> points;
@@ -119,7 +119,7 @@ bool CornerSampler::sample() {
               value +=
                   static_cast<double>(r.links[l].weight) * brightness_.of_node[r.links[l].source];
           }
-          r.value.push_back(value);
+          r.value.push_back(static_cast<float>(value));
           r.end.push_back(r.links.size());
         }
       },
@@ -131,14 +131,17 @@ bool CornerSampler::sample() {
   if (!going_on) return false;
   reached_ += (1 - reached_) / 2;
   CornerLight& direct = state_.direct;
-  for (const Result& r : results) {
+  for (Result& r : results) {
     const size_t before = direct.links.size();
     direct.links.insert(direct.links.end(), r.links.begin(), r.links.end());
     for (size_t end : r.end) direct.first.push_back(run_border(before + end));
     value_.insert(value_.end(), r.value.begin(), r.value.end());
     state_.rays += r.rays;
+    r = Result{};
   }
-  place_.insert(place_.end(), points.begin(), points.end());
+  for (const Wanted& wanted : wanted_)
+    place_.push_back({static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
+                      static_cast<float>(wanted.place.z), wanted.surface});
   wanted_.clear();
   return true;
 }
@@ -212,10 +215,11 @@ void CornerSampler::drop_what_is_unnamed() {
   for (size_t k = 0; k < number.size(); ++k) {
     if (number[k] == unnamed) continue;
     const uint32_t begin = direct.first[k], end = direct.first[k + 1];
+    const Vec3 place{place_[k].x, place_[k].y, place_[k].z};
     direct.first[kept] = static_cast<uint32_t>(links);
     for (uint32_t l = begin; l < end; ++l) {
       const Emitter& emitter = emitters.all()[emitters.of_root(direct.links[l].source)];
-      if (emitters.bright(emitter, place_[k].place, place_[k].normal))
+      if (emitters.bright(emitter, place, state_.forest.surfaces[place_[k].surface].normal))
         direct.links[links++] = direct.links[l];
     }
     number[k] = static_cast<int32_t>(kept++);

@@ -63,9 +63,13 @@ class CornerSampler {
   const uint64_t seed_;
   std::unordered_map<uint64_t, int32_t> number_;  // looked up only, never walked through
   std::vector<Wanted> wanted_;
-  std::vector<double> value_;
-  std::vector<OrientedPoint> place_;  // per sampled point
-  double reached_ = 0;                // share of all sampling that is done, guessed
+  std::vector<float> value_;
+  struct Place {
+    float x, y, z;
+    int32_t surface;
+  };
+  std::vector<Place> place_;  // per sampled point, roughly
+  double reached_ = 0;        // share of all sampling that is done, guessed
 };
 
 }  // namespace hrad

@@ -31,14 +31,14 @@ class RowTracer {
     const Surface& surface = forest.surfaces[node.surface];
     const Triangle corners = forest.triangle(node);
     const Frame frame(surface.normal);
-    const uint64_t key = mix(key_of(forest, node), settings_.seed, 0x726f77u);
+    const LowDiscrepancy points(mix(key_of(forest, node), settings_.seed, 0x726f77u));
     // Points on a sealed part see nothing: the row is that of the exposed part.
     const int most = node.exposed < 1 ? 64 * wanted : wanted;
     hits_.clear();
     int counted = 0;
     for (int k = 0; k < most && counted < wanted; ++k) {
       double p[4];
-      low_discrepancy_point(key, static_cast<uint32_t>(k), p);
+      points.point(static_cast<uint32_t>(k), p);
       double x, y;
       even_in_triangle(p[0], p[1], &x, &y);
       const Vec3 on = corners.at(x, y);

@@ -75,12 +75,16 @@ void print(const std::string& scene, const Settings& settings,
            const std::vector<Measurement>& runs) {
   const Measurement& m = runs.front();
   const hrad_stats& s = m.stats;
-  std::vector<double> user;
-  for (const Measurement& r : runs) user.push_back(r.user_seconds);
+  std::vector<double> user, loops;
+  for (const Measurement& r : runs) {
+    user.push_back(r.user_seconds);
+    loops.push_back(r.user_seconds / r.calibration);
+  }
   std::printf("%s, %lld patches, %s%s\n", scene.c_str(), whole(s.patches),
               text_of(settings).c_str(), s.converged ? "" : ", NOT CONVERGED");
-  std::printf("  user CPU       %.3f s (median of %zu, %.3f to %.3f), %d threads\n", median(user),
-              user.size(), smallest(user), greatest(user), s.threads);
+  std::printf(
+      "  user CPU       %.3f s (median of %zu, %.3f to %.3f), %.2f calibration loops, %d threads\n",
+      median(user), user.size(), smallest(user), greatest(user), median(loops), s.threads);
   std::printf("  wall           initial %.3f, linking %.3f, iterative %.3f s\n", s.seconds_initial,
               s.seconds_linking, s.seconds_iterative);
   std::printf("  work           %lld rays, %lld pairs, %lld rounds, %lld iterations\n",
@@ -106,10 +110,11 @@ void print(const std::string& scene, const Settings& settings,
   } else {
     std::printf("  no reference yet: --reference-seconds makes one\n");
   }
-  std::printf("| %s | %s | %.2f | %.2f | %lld | %lld | %.1f | %.0f | %.2f | ", scene.c_str(),
-              text_of(settings).c_str(), median(user), 1e-6 * static_cast<double>(s.rays),
-              whole(s.leaves), whole(s.links), per(s.link_bytes, s.links),
-              1e-6 * static_cast<double>(s.memory_peak_bytes), 100 * s.error_estimate);
+  std::printf("| %s | %s | %.2f | %.1f | %.2f | %lld | %lld | %.1f | %.0f | %.2f | ", scene.c_str(),
+              text_of(settings).c_str(), median(user), median(loops),
+              1e-6 * static_cast<double>(s.rays), whole(s.leaves), whole(s.links),
+              per(s.link_bytes, s.links), 1e-6 * static_cast<double>(s.memory_peak_bytes),
+              100 * s.error_estimate);
   if (m.compared)
     std::printf("%.2f +- %.2f | %+.2f | %.2f +- %.2f | %+.2f | ", 100 * m.sides.rms,
                 100 * m.sides.rms_error, 100 * m.sides.bias, 100 * m.points.rms,

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/calibration.h"
 #include "bench/reference_file.h"
 #include "bench/solution_error.h"
 #include "bench/user_time.h"
@@ -28,6 +29,7 @@ struct Measurement {
   bool done = false;
   char failure[256] = {};
   double user_seconds = 0;  // of hrad_solve
+  double calibration = 0;   // of the fixed loop run before and after it, the mean
   hrad_stats stats = {};
   double mismatch = 0;  // of the power balance, in the worst band, relative to the emitted power
   bool compared = false;
@@ -102,9 +104,11 @@ inline Measurement solve_apart(const std::string& scene, const Settings& setting
                                const ReferencePlace* place) {
   return in_child<Measurement>([&](Measurement& result) {
     const auto solver = loaded(scene, settings);
+    const double before = calibration_seconds();
     const double start = user_seconds();
     solver->solve();
     result.user_seconds = user_seconds() - start;
+    result.calibration = (before + calibration_seconds()) / 2;
     result.stats = solver->stats();
     result.mismatch = worst_mismatch(*solver);
     if (place == nullptr) return;
