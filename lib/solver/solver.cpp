@@ -131,6 +131,7 @@ uint64_t Solver::state_hash() const {
     hash.add(key_of(state.forest, node));
     hash.add(static_cast<uint64_t>(node.first_child + 1));
     hash.add(node.exposed);
+    hash.add(static_cast<uint64_t>(node.light_points));
     for (const Link& link : state.links[k].links()) {
       hash.add(static_cast<uint64_t>(link.source));
       hash.add(link.weight);
@@ -144,6 +145,11 @@ uint64_t Solver::state_hash() const {
     }
   for (const auto& corners : direct.of_leaf)
     for (int32_t corner : corners) hash.add(static_cast<uint64_t>(corner + 1));
+  for (const CornerLight::OwnPoint& point : direct.own) {
+    hash.add(static_cast<uint64_t>(point.number));
+    hash.add(point.x);
+    hash.add(point.y);
+  }
   for (uint32_t first : direct.first) hash.add(static_cast<uint64_t>(first));
   for (const Link& link : direct.links) {
     hash.add(static_cast<uint64_t>(link.source));

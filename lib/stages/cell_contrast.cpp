@@ -48,10 +48,13 @@ std::vector<float> contrast_of_cells(const State& state, const Brightness& brigh
     }
   }
   std::vector<float> contrast(touched.size(), 0.0f);
-  for (size_t k = 0; k < contrast.size(); ++k)
-    for (int32_t number : touched[k])
-      contrast[k] =
-          std::max(contrast[k], error_of_a_step * (at_corner[number].high - at_corner[number].low));
+  for (size_t k = 0; k < contrast.size(); ++k) {
+    if (!(forest.nodes[state.cells[k]].exposed > 0)) continue;
+    for (int32_t number : touched[k]) {
+      const Range& range = at_corner[number];
+      contrast[k] = std::max(contrast[k], error_of_a_step * (range.high - range.low));
+    }
+  }
   return contrast;
 }
 

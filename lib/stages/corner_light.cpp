@@ -17,8 +17,6 @@ constexpr double inwards = 1e-3;
 constexpr double most_offsets = 50;
 constexpr int tries_for_an_exposed_point = 64;
 constexpr int steps_to_a_border = 8;
-// Of two corners and the middle of the opposite side: the mean of squares across is exact.
-constexpr double way_in_a_quadrangle = 0.408;
 constexpr double sealed = -1;
 
 uint64_t key_of_corner(int32_t surface, LatticePoint p) {
@@ -33,6 +31,25 @@ uint32_t run_border(size_t links) {
   return static_cast<uint32_t>(links);
 }
 
+// Three points that have the mean of every quadratic field over a trapezoid whose parallel sides
+// run from a to b and from a_far to b_far: its centroid and second moments are theirs.
+void points_of_trapezoid(Vec3 a, Vec3 b, Vec3 a_far, Vec3 b_far, Vec3 place[3]) {
+  const Vec3 near = (a + b) * 0.5, far = (a_far + b_far) * 0.5, height = far - near;
+  const double near_half = length(b - a) / 2, far_half = length(b_far - a_far) / 2;
+  const double sum = near_half + far_half;
+  if (!(sum > 0)) {
+    place[0] = place[1] = place[2] = near;
+    return;
+  }
+  const Vec3 middle = near + height * ((near_half + 2 * far_half) / (3 * sum));
+  const Vec3 along = near_half > 0 ? (b - a) * (1 / (2 * near_half)) : Vec3{0, 0, 0};
+  const double across = std::sqrt(1 + 2 * near_half * far_half / (sum * sum)) / 6;
+  const double beside = std::sqrt(near_half * near_half + far_half * far_half) / 2;
+  place[0] = middle - height * across - along * beside;
+  place[1] = middle - height * across + along * beside;
+  place[2] = middle + height * (2 * across);
+}
+
 }  // namespace
 
 CornerSampler::CornerSampler(State& state, const StageTools& tools, const DirectLight& light,
@@ -42,7 +59,8 @@ CornerSampler::CornerSampler(State& state, const StageTools& tools, const Direct
       brightness_(brightness),
       grid_(grid),
       light_(light),
-      seed_(seed) {
+      seed_(seed),
+      memory_(state) {
   state_.direct = CornerLight{};
   state_.direct.first.push_back(0);
 }
@@ -89,7 +107,16 @@ bool CornerSampler::is_sealed(int32_t surface, Vec3 place) const {
          tools_.exposure.sealed(s.patch, s.side, place);
 }
 
+void CornerSampler::count_memory() {
+  constexpr size_t bytes_of_a_number = 48;  // in the table that finds it
+  const size_t bytes = number_.size() * bytes_of_a_number + wanted_.capacity() * sizeof(Wanted) +
+                       value_.capacity() * sizeof value_[0] + place_.capacity() * sizeof(Place);
+  memory_.take(static_cast<int64_t>(bytes) - counted_, "points at which direct light is known");
+  counted_ = static_cast<int64_t>(bytes);
+}
+
 bool CornerSampler::sample() {
+  count_memory();
   struct Result {
     std::vector<Link> links;
     std::vector<size_t> end;  // of each corner's links
@@ -143,6 +170,7 @@ bool CornerSampler::sample() {
     place_.push_back({static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
                       static_cast<float>(wanted.place.z), wanted.surface});
   wanted_.clear();
+  count_memory();
   return true;
 }
 
@@ -174,11 +202,8 @@ bool CornerSampler::points_of_exposed(NodeId id, const LatticePoint corner[3],
     const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) * (1.0 / 3);
     for (int c = 0; c < 3; ++c) place[c] = (triangle[c] + middle) * 0.5;
   } else if (exposed == 2) {
-    const Vec3 far = (border(surface, open[0], shut[0]) + border(surface, open[1], shut[0])) * 0.5;
-    const Vec3 middle = (open[0] + open[1] + far * 2) * 0.25;
-    place[0] = middle + (open[0] - middle) * way_in_a_quadrangle;
-    place[1] = middle + (open[1] - middle) * way_in_a_quadrangle;
-    place[2] = middle + (far - middle) * (2 * way_in_a_quadrangle);
+    points_of_trapezoid(open[0], open[1], border(surface, open[0], shut[0]),
+                        border(surface, open[1], shut[0]), place);
   }
   Vec3 somewhere;
   bool found = false;
@@ -227,8 +252,6 @@ void CornerSampler::drop_what_is_unnamed() {
   direct.first[kept] = static_cast<uint32_t>(links);
   direct.first.resize(kept + 1);
   direct.links.resize(links);
-  direct.first.shrink_to_fit();
-  direct.links.shrink_to_fit();
   for (auto& corners : direct.of_leaf)
     for (int32_t& corner : corners)
       if (corner >= 0) corner = number[corner];
@@ -237,7 +260,6 @@ void CornerSampler::drop_what_is_unnamed() {
   for (const CornerLight::OwnPoint& point : direct.own)
     if (number[point.number] >= 0) direct.own[own++] = {number[point.number], point.x, point.y};
   direct.own.resize(own);
-  direct.own.shrink_to_fit();
 }
 
 }  // namespace hrad

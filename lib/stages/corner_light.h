@@ -8,7 +8,7 @@
 
 #include "hierarchy/lattice.h"
 #include "links/direct_light.h"
-#include "stages/state.h"
+#include "stages/state_memory.h"
 
 namespace hrad {
 
@@ -49,6 +49,7 @@ class CornerSampler {
     uint64_t key;
     Vec3 place;
   };
+  void count_memory();
   Vec3 point_of(int32_t surface, LatticePoint point) const;
   Vec3 moved_inwards(int32_t surface, Vec3 on) const;
   bool is_sealed(int32_t surface, Vec3 place) const;
@@ -69,7 +70,9 @@ class CornerSampler {
     int32_t surface;
   };
   std::vector<Place> place_;  // per sampled point, roughly
-  double reached_ = 0;        // share of all sampling that is done, guessed
+  StageMemory memory_;        // of all these
+  int64_t counted_ = 0;
+  double reached_ = 0;  // share of all sampling that is done, guessed
 };
 
 }  // namespace hrad

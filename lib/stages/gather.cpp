@@ -62,8 +62,8 @@ void lay_out_sources(const State& state, ThreadTeam& team, GatherSpace& space) {
 void add_direct_light(const State& state, const GatherSpace& space, size_t block, float* out) {
   const LinkTable::Block direct = state.direct.mean.block(block);
   const size_t values = direct.receivers * static_cast<size_t>(state.bands);
-  std::vector<float> light(values);
-  gather_runs(state, space, direct.links, direct.first, direct.receivers, direct.end, light.data());
+  float light[LinkTable::receivers_of_a_block * most_bands];
+  gather_runs(state, space, direct.links, direct.first, direct.receivers, direct.end, light);
   for (size_t k = 0; k < values; ++k) out[k] += light[k];
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "stages/state_memory.h"
+
 namespace hrad {
 namespace {
 
@@ -139,7 +141,7 @@ LeafLight::Shares LeafLight::shares_of_mean(NodeId leaf, int32_t centroid) const
   LatticePoint corner[3];
   lattice_corners(node, corner);
   int32_t middles[3];
-  bool known = true;
+  bool known = node.level < max_level;  // below there are no middles
   for (int c = 0; c < 3; ++c) {
     middles[c] = corners_.find(node.surface, middle(corner[c], corner[(c + 1) % 3]));
     known = known && middles[c] >= 0 && corners_.value(middles[c]) >= 0;
@@ -161,6 +163,7 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
     std::vector<size_t> end;  // of each leaf's links
   };
   std::vector<Result> results(static_cast<size_t>(tasks));
+  StageMemory memory(state_);  // of the links until they are in place
   tools_.team.for_each(tasks, [&](int64_t task, int) {
     Result& r = results[task];
     std::vector<Link> all;
@@ -184,6 +187,7 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
       }
       r.end.push_back(r.links.size());
     }
+    memory.take(static_cast<int64_t>(r.links.capacity() * sizeof(Link)), "direct light of leaves");
   });
   std::vector<LinkTable::NewRun> runs;
   for (int64_t k = 0; k < count; ++k) {

@@ -54,7 +54,9 @@ class RowTracer {
       if (emitter >= 0) {
         double u, v;
         root_coordinates(node, x, y, &u, &v);
-        if (has_direct_light(forest, emitters_, emitter, forest.leaf_at(node.surface, u, v)))
+        const NodeId leaf = forest.leaf_at(node.surface, u, v);
+        if (state_.direct.of_leaf[leaf][0] >= 0 &&
+            has_direct_light(forest, emitters_, emitter, leaf))
           continue;
       }
       if (forest.nodes[source].exposed < 1 &&

@@ -48,7 +48,8 @@ void stay_near_the_mean(const State& state, Brightness& light) {
   if (!(sum > 0) || 2 * sum >= area) return;
   const double factor = area / (2 * sum);
   for (double& unit : light.unit) unit *= factor;
-  for (float& brightness : light.of_node) brightness = static_cast<float>(brightness * factor);
+  for (auto* values : {&light.of_node, &light.spread})
+    for (float& value : *values) value = static_cast<float>(value * factor);
 }
 
 Brightness light_of_pilot_rows(State& state, ThreadTeam& team) {

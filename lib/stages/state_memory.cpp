@@ -37,6 +37,7 @@ void shrink_to_fit(State& state) {
   state.direct.of_leaf.shrink_to_fit();
   state.direct.first.shrink_to_fit();
   state.direct.links.shrink_to_fit();
+  state.direct.own.shrink_to_fit();
 }
 
 void clear(State& state) {

@@ -141,7 +141,7 @@ void faces_are_joined() {
     for (const Vec3& p : e.point) CHECK(length(p - e.center) <= e.radius * (1 + 1e-9));
 }
 
-// A cube of the grid knows every emitter that is bright at one of its points.
+// A cube of the grid knows every emitter that is sampled at one of its points.
 void the_grid_misses_none() {
   for (double least : {1e-3, 1.0, 30.0}) {
     Lit lit(floor_and_lamp(0.4), 1, least);
@@ -152,7 +152,7 @@ void the_grid_misses_none() {
       const Vec3 center = random.in_cube(6), direction = normalized(random.in_cube(1));
       const double radius = 0.1 + random.unit();
       const Vec3 x = center + random.in_cube(1) * (radius / 1.7321);
-      const bool is = lit.emitters.bright(lamp, x, direction);
+      const bool is = lit.emitters.is_sampled(lamp, Emitters::rough_factor(lamp, x, direction));
       (is ? bright : dim) += 1;
       if (is) CHECK(lit.emitters.can_be_sampled(lamp, center, radius));
     }

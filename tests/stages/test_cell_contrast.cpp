@@ -55,10 +55,12 @@ void a_step_is_seen_on_both_sides_of_it_in_its_plane() {
   for (int k = 4; k < 8; ++k) CHECK_EQUAL(contrast[k], 0.0f);
 }
 
-void sealed_cells_say_nothing() {
+void sealed_cells_say_nothing_and_are_told_nothing() {
   Squares squares;
   for (NodeId k = 2; k < 4; ++k) squares.bench.state.forest.nodes[k].exposed = 0;
-  for (float contrast : squares.with({1, 1, 3, 3, 9, 9, 20, 20})) CHECK_EQUAL(contrast, 0.0f);
+  const std::vector<float> contrast = squares.with({1, 2, 30, 30, 9, 9, 20, 20});
+  for (int k = 0; k < 2; ++k) CHECK_EQUAL(contrast[k], 0.25f);
+  for (int k = 2; k < 8; ++k) CHECK_EQUAL(contrast[k], 0.0f);
 }
 
 }  // namespace
@@ -67,7 +69,7 @@ int main() {
   const CMUnitTest tests[] = {
       HRAD_TEST(an_even_field_has_none),
       HRAD_TEST(a_step_is_seen_on_both_sides_of_it_in_its_plane),
-      HRAD_TEST(sealed_cells_say_nothing),
+      HRAD_TEST(sealed_cells_say_nothing_and_are_told_nothing),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "base/angle.h"
+#include "hierarchy/lattice.h"
+#include "stages/corner_light.h"
 #include "stages/rows.h"
 #include "support/workbench.h"
 #include "visibility/brute_force.h"
@@ -180,6 +182,51 @@ void contacts_have_the_light_of_the_exposed_part() {
   CHECK_NEAR(solved / wanted, 1, 0.005);
 }
 
+// The three points of a leaf one of whose corners is sealed have the means of x, y and their
+// products over what is exposed: a trapezoid, where the box stands across a corner of the floor.
+void points_of_a_contact_have_the_means_of_quadratic_fields() {
+  Scene scene;
+  add_quad(scene, {0, 0, 0}, {4, 0, 0}, {0, 4, 0});  // a floor of two triangles
+  add_box(scene, {-1, -1, 0}, {1.5, 9, 1});          // over x < 1.5
+  set_light(scene, 0, scene.patch_count(), 1, 0.5);
+  Workbench bench(scene);
+  const LinkSampler sampler = bench.sampler();
+  for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
+  const Brightness none{{1, 1, 1}, std::vector<float>(bench.state.forest.nodes.size(), 0.0f), {}};
+  const Emitters emitters(bench.state.forest, none.of_node, 1);
+  LightGrid grid(emitters, *bench.engine, 1);
+  const DirectLight light(bench.state.forest, *bench.engine, emitters, grid, 0.1);
+  const StageTools tools = bench.tools({});
+  CornerSampler corners(bench.state, tools, light, grid, none, 1);
+  int trapezoids = 0;
+  for (NodeId root = 0; root < 2; ++root) {
+    LatticePoint corner[3];
+    lattice_corners(bench.state.forest.nodes[root], corner);
+    Vec3 point[3];
+    CHECK(corners.points_of_exposed(root, corner, point));
+    const Triangle t = bench.state.forest.root_triangle(root);
+    double wanted[5] = {}, count = 0, found[5] = {};
+    constexpr int steps = 1500;
+    const auto add = [](Vec3 p, double weight, double* sum) {
+      const double field[5] = {p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y};
+      for (int k = 0; k < 5; ++k) sum[k] += weight * field[k];
+    };
+    for (int i = 0; i < steps; ++i)
+      for (int j = 0; i + j < steps; ++j) {
+        const Vec3 p = t.at((i + 1.0 / 3) / steps, (j + 1.0 / 3) / steps);
+        if (p.x < 1.5) continue;
+        add(p, 1, wanted);
+        ++count;
+      }
+    for (const Vec3& p : point) add(p, 1.0 / 3, found);
+    for (int k = 0; k < 5; ++k) CHECK_NEAR(found[k], wanted[k] / count, 0.02 * wanted[k] / count);
+    int sealed_corners = 0;
+    for (const Vec3& p : {t.a, t.b, t.c}) sealed_corners += p.x < 1.5;
+    trapezoids += sealed_corners == 1;
+  }
+  CHECK_EQUAL(trapezoids, 1);
+}
+
 // Leaves are small at the edge of the shadow that a plate throws, and large away from it.
 void the_mesh_follows_the_shadow() {
   Scene scene;
@@ -247,6 +294,7 @@ int main() {
       HRAD_TEST(seeds_differ_by_noise_alone),
       HRAD_TEST(a_stop_is_heeded),
       HRAD_TEST(contacts_have_the_light_of_the_exposed_part),
+      HRAD_TEST(points_of_a_contact_have_the_means_of_quadratic_fields),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
