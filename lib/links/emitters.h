@@ -47,7 +47,7 @@ class Emitters {
   bool can_be_sampled(const Emitter& emitter, Vec3 center, double radius) const;
 
  private:
-  static constexpr double sampling_margin = 4;
+  static constexpr double sampling_margin = 2;
 
   std::vector<Emitter> emitters_;
   std::vector<int32_t> of_root_;

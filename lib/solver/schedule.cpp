@@ -38,7 +38,7 @@ constexpr double fewest_cells = 1000, cells_of_a_surface = 64, cells_of_a_scene 
 constexpr double row_contrast = 0.03;
 constexpr double row_rays = 64, least_row_rays = 16, fewest_rays = 4;
 constexpr double direct_tolerance = 0.1;  // at the most: what is coarser misses whole shadows
-constexpr double least_bright = 0.05;
+constexpr double least_bright = 0.1;
 constexpr double least_cube = 1e-4;  // of the root of all area: cubes have names of limited length
 constexpr double least_cell_share = 1.0 / 256, least_element_share = 1.0 / (1 << 20);
 
