@@ -1,6 +1,6 @@
 // The hierarchy: every exchanging side of a patch is a surface, the root of a tree of elements made
 // by 4-way midpoint subdivision (paper, Section 2; Hanrahan, Saltzman, Aupperle 1991, Section 3).
-// Flat arrays, parents before children. Floor 5 (hierarchy).
+// Clusters of surfaces may stand above the roots. Flat arrays. Floor 5 (hierarchy).
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,14 @@
 
 #include "base/span.h"
 #include "base/vec3.h"
+#include "hierarchy/clusters.h"
 #include "scene/scene.h"
 #include "visibility/visibility.h"
 
 namespace hrad {
 
-using NodeId = int32_t;  // index into Forest::nodes; the first surface_count() nodes are the roots
+// NodeId is an index into Forest::nodes. The first surface_count() nodes are the roots; the
+// clusters follow, if there are any, and then the elements, parents before children.
 
 constexpr int max_level = 15;  // lattice coordinates of an element fit into 16 bits
 
@@ -37,14 +39,15 @@ enum LightPoints : uint8_t {
   at_own_points,           // of its exposed part
 };
 
-// An element. Its place in the patch is a triangle of the lattice that L subdivisions draw: with
-// the point of coordinates (i,j) at u = i/2^L, v = j/2^L, an upright one has the corners (i,j),
-// (i+1,j), (i,j+1), an inverted one (i+1,j+1), (i,j+1), (i+1,j). So a node needs no corners of its
-// own, and neighbours share exactly the same ones.
+// An element, or a cluster, of which only parent and surface mean anything. An element's place in
+// the patch is a triangle of the lattice that L subdivisions draw: with the point of coordinates
+// (i,j) at u = i/2^L, v = j/2^L, an upright one has the corners (i,j), (i+1,j), (i,j+1), an
+// inverted one (i+1,j+1), (i,j+1), (i+1,j). So a node needs no corners of its own, and neighbours
+// share exactly the same ones.
 struct Node {
-  NodeId parent = -1;
+  NodeId parent = -1;       // of a root the cluster that holds it
   NodeId first_child = -1;  // the four children stand side by side; -1: a leaf
-  int32_t surface = 0;
+  int32_t surface = 0;      // -1-c: cluster c
   uint16_t i = 0, j = 0;
   uint8_t level = 0;
   uint8_t inverted = 0;
@@ -79,8 +82,13 @@ class Forest {
   explicit Forest(const Scene& scene);
 
   int64_t surface_count() const { return static_cast<int64_t>(surfaces.size()); }
+  static bool is_cluster(const Node& n) { return n.surface < 0; }
+  const Cluster& cluster(const Node& n) const { return clusters.clusters[-1 - n.surface]; }
+  // Where light enters the tree: the cluster of all surfaces, or the only surface.
+  NodeId top() const { return clusters.empty() ? 0 : static_cast<NodeId>(surface_count()); }
   bool is_leaf(NodeId n) const { return nodes[n].first_child < 0; }
   double area(const Node& n) const {
+    if (is_cluster(n)) return cluster(n).area;
     return surfaces[n.surface].area / static_cast<double>(int64_t{1} << (2 * n.level));
   }
   double total_area() const;  // of all surfaces
@@ -99,6 +107,7 @@ class Forest {
   const Scene* scene;
   std::vector<Surface> surfaces;  // in key order (patch, side)
   std::vector<Node> nodes;
+  ClusterTree clusters;
 
  private:
   std::vector<int32_t> first_surface_;  // per patch, -1 when it exchanges nothing

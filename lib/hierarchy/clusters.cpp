@@ -1,0 +1,176 @@
+// Building the tree from the top: by normals until they are alike, then by size, then by place.
+// Floor 5 (hierarchy).
+#include "hierarchy/clusters.h"
+
+#include <algorithm>
+
+#include "base/angle.h"
+#include "hierarchy/forest.h"
+
+namespace hrad {
+namespace {
+
+// A surface that fills so much of its cluster's radius is large beside those less than half its
+// size, and parted from them: a floor from the things that stand on it.
+constexpr double large_share = 1.0 / 3;
+// Below so many levels clusters are halved by count: no scene makes the tree deeper than that and
+// the logarithm of its patches.
+constexpr int deepest_by_place = 48;
+
+int longest_axis(Vec3 extent) {
+  if (extent.x >= extent.y && extent.x >= extent.z) return 0;
+  return extent.y >= extent.z ? 1 : 2;
+}
+
+struct Piece {
+  int32_t first, count;
+  int32_t parent;  // cluster, -1: the first one
+  int slot;
+  int depth;
+};
+
+class Builder {
+ public:
+  explicit Builder(Forest& forest) : forest_(forest), tree_(forest.clusters) {
+    const int32_t count = static_cast<int32_t>(forest.surface_count());
+    tree_.order.resize(count);
+    for (int32_t k = 0; k < count; ++k) {
+      tree_.order[k] = k;
+      const Triangle t = forest.root_triangle(k);
+      centroid_.push_back(t.centroid());
+      double square = 0;
+      for (const Vec3& p : {t.a, t.b, t.c})
+        square = std::max(square, dot(p - centroid_[k], p - centroid_[k]));
+      size_.push_back(std::sqrt(square));
+    }
+  }
+
+  void build() {
+    std::vector<Piece> stack{{0, static_cast<int32_t>(tree_.order.size()), -1, 0, 0}};
+    while (!stack.empty()) {
+      const Piece piece = stack.back();
+      stack.pop_back();
+      const int32_t number = static_cast<int32_t>(tree_.clusters.size());
+      const NodeId id = piece.count == 1 ? tree_.order[piece.first]
+                                         : static_cast<NodeId>(forest_.surface_count()) + number;
+      if (piece.parent >= 0) {
+        tree_.clusters[piece.parent].child[piece.slot] = id;
+        forest_.nodes[id].parent = static_cast<NodeId>(forest_.surface_count()) + piece.parent;
+      }
+      if (piece.count == 1) continue;
+      const Cluster cluster = bounds_of(piece);
+      tree_.clusters.push_back(cluster);
+      const int32_t left = divide(piece, cluster);
+      stack.push_back({piece.first + left, piece.count - left, number, 1, piece.depth + 1});
+      stack.push_back({piece.first, left, number, 0, piece.depth + 1});
+    }
+  }
+
+ private:
+  const Vec3& normal(int32_t surface) const { return forest_.surfaces[surface].normal; }
+
+  template <class F>
+  void for_corners(const Piece& piece, F&& f) const {
+    for (int32_t k = piece.first; k < piece.first + piece.count; ++k) {
+      const Triangle t = forest_.root_triangle(tree_.order[k]);
+      f(t.a);
+      f(t.b);
+      f(t.c);
+    }
+  }
+
+  Cluster bounds_of(const Piece& piece) const {
+    Cluster c;
+    c.first = piece.first;
+    c.count = piece.count;
+    Vec3 sum;
+    for (int32_t k = piece.first; k < piece.first + piece.count; ++k)
+      sum = sum + normal(tree_.order[k]) * forest_.surfaces[tree_.order[k]].area;
+    c.normal = normalized(sum);
+    for (int32_t k = piece.first; k < piece.first + piece.count; ++k) {
+      const Vec3& n = normal(tree_.order[k]);
+      c.cone = std::max(c.cone, angle_of(length(cross(c.normal, n)), dot(c.normal, n)));
+    }
+    if (!(dot(c.normal, c.normal) > 0)) c.cone = pi;
+    Box box;
+    for_corners(piece, [&](Vec3 p) { box.grow(p); });
+    c.center = box.center();
+    double low = 1e300, high = -1e300;
+    for_corners(piece, [&](Vec3 p) {
+      const double height = dot(c.normal, p - c.center);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    });
+    c.thickness = (high - low) / 2;
+    c.center = c.center + c.normal * ((low + high) / 2);
+    double square = 0;
+    for_corners(piece, [&](Vec3 p) { square = std::max(square, dot(p - c.center, p - c.center)); });
+    c.radius = std::sqrt(square);
+    return c;
+  }
+
+  // Orders the piece's surfaces into two parts; the count of the first.
+  int32_t divide(const Piece& piece, const Cluster& cluster) {
+    int32_t* first = &tree_.order[piece.first];
+    int32_t* last = first + piece.count;
+    const auto part = [&](auto&& is_first) {
+      return static_cast<int32_t>(std::stable_partition(first, last, is_first) - first);
+    };
+    if (!cluster.linkable()) {
+      Box box;
+      for (const int32_t* s = first; s < last; ++s) box.grow(normal(*s));
+      const int axis = longest_axis(box.extent());
+      const double middle = box.center()[axis];
+      return part([&](int32_t s) { return normal(s)[axis] < middle; });
+    }
+    double largest = 0, smallest = 1e300;
+    Box box;
+    for (const int32_t* s = first; s < last; ++s) {
+      largest = std::max(largest, size_[*s]);
+      smallest = std::min(smallest, size_[*s]);
+      box.grow(centroid_[*s]);
+    }
+    if (largest > large_share * cluster.radius && smallest < largest / 2)
+      return part([&](int32_t s) { return size_[s] >= largest / 2; });
+    const int axis = longest_axis(box.extent());
+    const double middle = box.center()[axis];
+    if (box.low[axis] < middle && piece.depth < deepest_by_place)
+      return part([&](int32_t s) { return centroid_[s][axis] < middle; });
+    std::stable_sort(first, last,
+                     [&](int32_t a, int32_t b) { return centroid_[a][axis] < centroid_[b][axis]; });
+    return piece.count / 2;
+  }
+
+  Forest& forest_;
+  ClusterTree& tree_;
+  std::vector<Vec3> centroid_;
+  std::vector<double> size_;  // radius around the centroid
+};
+
+}  // namespace
+
+void add_clusters(Forest& forest) {
+  const int32_t surfaces = static_cast<int32_t>(forest.surface_count());
+  if (surfaces < 2) return;
+  for (int32_t c = 0; c < surfaces - 1; ++c) {
+    Node node;
+    node.surface = -1 - c;
+    forest.nodes.push_back(node);
+  }
+  Builder(forest).build();
+  measure_clusters(forest);
+}
+
+void measure_clusters(Forest& forest) {
+  ClusterTree& tree = forest.clusters;
+  tree.area_before.assign(1, 0.0);
+  for (int32_t surface : tree.order)
+    tree.area_before.push_back(tree.area_before.back() +
+                               forest.surfaces[surface].area * forest.nodes[surface].exposed);
+  for (Cluster& c : tree.clusters)
+    c.area = tree.area_before[c.first + c.count] - tree.area_before[c.first];
+  for (size_t c = 0; c < tree.clusters.size(); ++c)
+    forest.nodes[forest.surface_count() + c].exposed = tree.clusters[c].area > 0 ? 1.0f : 0.0f;
+}
+
+}  // namespace hrad
