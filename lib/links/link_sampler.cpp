@@ -62,6 +62,12 @@ uint32_t LinkSampler::move_to_exposed(const Element& element, uint64_t key, floa
 // The pairs that are traced, with all that the first look at a link does without.
 void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t key,
                        LinkEstimate& estimate, DrawnPairs& drawn) const {
+  if (estimate.by_points) {
+    EndPoints unused;
+    draw_points(receiver, source, key, false, estimate, drawn, unused);
+    if (estimate.near) scale_to(estimate, drawn);
+    return;
+  }
   PairPoints points = pattern_of(key);
   const EndsBySize ends(receiver, source);
   // Of close pairs the points on the larger end are drawn sealed or not.
@@ -93,7 +99,8 @@ void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t 
 }
 
 void LinkSampler::begin(const Element& receiver, const Element& source, uint64_t key,
-                        DrawnPairs& drawn, LinkEstimate& estimate) const {
+                        DrawnPairs& drawn, LinkEstimate& estimate, double allowed) const {
+  if (allowed > 0 && begin_by_points(receiver, source, key, drawn, estimate, allowed)) return;
   draw_pairs(receiver, source, key, engine_.center(), engine_.offset(), drawn.samples);
   drawn.exposed = all_pairs;
   estimate = LinkEstimate{};
@@ -143,10 +150,13 @@ void LinkSampler::add(const DrawnPairs& drawn, uint32_t lanes, uint32_t blocked,
     // Near each other a pair of points may all but touch: it stands for a sixteenth of the source,
     // whose form factor is at most 1.
     double kernel = drawn.samples.kernel[k];
-    if (estimate.near && !estimate.close_pairs)
+    if (estimate.near && !estimate.close_pairs && !estimate.by_points)
       kernel = std::min(kernel, lanes_per_packet / estimate.source_area);
     estimate.kernel_sum += kernel;
-    if (seen >> k & 1) estimate.visible_sum += kernel;
+    if (seen >> k & 1) {
+      estimate.visible_sum += kernel;
+      estimate.quarter_sum[k / 4] += kernel;
+    }
     ++estimate.pairs;
   }
 }
@@ -157,7 +167,7 @@ void LinkSampler::trace_drawn(const DrawnPairs& drawn, LinkEstimate& estimate) {
 
 void LinkSampler::trace(const Element& receiver, const Element& source, uint64_t key,
                         DrawnPairs& drawn, LinkEstimate& estimate) {
-  if (receiver.exposed < 1 || source.exposed < 1 || estimate.close_pairs)
+  if (!estimate.by_points && (receiver.exposed < 1 || source.exposed < 1 || estimate.close_pairs))
     draw(receiver, source, key, estimate, drawn);
   trace_drawn(drawn, estimate);
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "links/element.h"
+#include "links/end_points.h"
 #include "links/pair_samples.h"
 #include "visibility/exposure.h"
 #include "visibility/visibility.h"
@@ -21,7 +22,13 @@ struct LinkEstimate {
   bool near = false;         // factor is Lambert's
   double source_area = 0;    // that the pairs are drawn from
   bool close_pairs = false;  // pairs that are traced whole are draw_close_pairs'
+  bool by_points = false;    // pairs are those of EndPoints, and factor is but a sample
+  double guess = 0;          // then: LinkGuess::factor
+  // What the link could carry, whatever chance has made of its sample: links that it made too heavy
+  // must not be refined more readily than those it made too light, or light is lost.
+  double potential() const { return by_points ? guess : factor; }
   double kernel_sum = 0, visible_sum = 0;  // over the traced pairs
+  double quarter_sum[4] = {};              // visible_sum by the receiver's quarters
   int pairs = 0;                           // traced pairs; those on sealed points count as blocked
   double visible() const { return kernel_sum > 0 ? visible_sum / kernel_sum : 0; }
   // Shares of what the pairs are drawn from that are exposed. All light arrives on the receiver's.
@@ -63,9 +70,11 @@ class LinkSampler {
         seed_(seed),
         near_ratio_(near_ratio) {}
 
-  // The unoccluded form factor; draws the first packet's pairs on the way.
+  // The unoccluded form factor; draws the first packet's pairs on the way. allowed: variance of the
+  // weight, per weight, that doesn't matter; where that is much, or an end is a cluster, a rough
+  // estimate from EndPoints will do.
   void begin(const Element& receiver, const Element& source, uint64_t key, DrawnPairs& drawn,
-             LinkEstimate& estimate) const;
+             LinkEstimate& estimate, double allowed = 0) const;
 
   // Adds the outcome of tracing the pairs of `lanes`: bit k of blocked: pair k is blocked.
   void add(const DrawnPairs& drawn, uint32_t lanes, uint32_t blocked, LinkEstimate& estimate);
@@ -95,9 +104,20 @@ class LinkSampler {
     return mix(receiver_key, source_key, seed_);
   }
 
+  PointPlacer placer() const { return {forest_, exposure_, engine_.center(), engine_.offset()}; }
+
  private:
+  bool begin_by_points(const Element& receiver, const Element& source, uint64_t key,
+                       DrawnPairs& drawn, LinkEstimate& estimate, double allowed) const;
+  void draw_points(const Element& receiver, const Element& source, uint64_t key, bool keep,
+                   const LinkEstimate& estimate, DrawnPairs& drawn, EndPoints& of_small) const;
+  uint32_t place_near(const EndsBySize& ends, const EndPoints& small, uint64_t key,
+                      EndPoints& points, float scale[16]) const;
+  static void scale_to(const LinkEstimate& estimate, DrawnPairs& drawn);
   void draw(const Element& receiver, const Element& source, uint64_t key, LinkEstimate& estimate,
             DrawnPairs& drawn) const;
+  void draw_clusters(const Element& receiver, const Element& source, uint64_t key,
+                     LinkEstimate& estimate, DrawnPairs& drawn) const;
   bool is_exposed(const Element& element, double u, double v) const;
   uint32_t move_to_exposed(const Element& element, uint64_t key, float u[16], float v[16]) const;
   uint32_t exposed_mask(const Element& element, const float u[16], const float v[16]) const;

@@ -28,6 +28,12 @@ constexpr double partial_variance = 1.0 / 6;
 // edge cuts off is cut off along the same line.
 constexpr double edge_weight = 4;
 
+// What is hidden of an uneven source is hidden from many receivers, and is as a rule its dark part:
+// such errors all go one way, and add up where others of the same size average out.
+constexpr double one_way_weight = 10;
+// Links that are estimated roughly are refined for what many of them add up to.
+constexpr double rough_in_question = 0.3;
+
 // An error over a whole element counts less for its patch the smaller the element is, and for the
 // root mean square over points likewise.
 double mean_share(const LinkLoad& load) { return load.receiver_area / load.patch_area; }
@@ -56,10 +62,10 @@ Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEs
                      double size_ratio) {
   // What the link could carry: its weight is a sample, and links that chance has made too heavy
   // must not be refined more readily than those it has made too light, or light is lost.
-  const double carried = e.factor * load.brightness;
-  const double relative = e.factor > 0 ? e.variation / e.factor : 0;
+  const double carried = e.potential() * load.brightness;
+  const double relative = e.potential() > 0 ? e.variation / e.potential() : 0;
   const double quadrature = e.factor > 0 ? e.mean_error / e.factor : 0;
-  const double visible = e.factor > 0 ? load.weight / e.factor : 0;
+  const double visible = e.factor > 0 ? load.weight / e.factor : 1;
   const bool partly_seen = visible < 1 - almost_clear;
   const double partial = partly_seen ? carried * partial_variance : 0;
   // Variation over the receiver: of the kernel, and of what is seen of the source.
@@ -84,28 +90,61 @@ Decision judge_error(const OracleSettings& s, const LinkLoad& load, const LinkEs
   return Decision::keep;
 }
 
+Decision judge_with_clusters(const OracleSettings& s, const LinkLoad& load, const LinkEstimate& e,
+                             const Element& receiver, const Element& source) {
+  const double carried = e.potential() * load.brightness;
+  const double relative = e.potential() > 0 ? e.variation / e.potential() : 0;
+  const double visible = e.factor > 0 ? std::min(1.0, load.weight / e.factor) : 1;
+  const double distance = length(source.centroid - receiver.centroid);
+  const double size = receiver.radius + source.radius;
+  const double by_kernel = size < distance ? size * size / (distance * distance) : 1;
+  const double by_view = one_way_weight * visible * (1 - visible);
+  const double uneven = load.brightness > 0 ? load.source_spread / load.brightness : 0;
+  const double of_source = carried * uneven * uneven;
+  // Small receivers side by side all have the same error by an uneven source.
+  if (load.may_descend && (of_source * (by_view + by_kernel * mean_share(load)) > s.mean_variance ||
+                           of_source * by_kernel > s.point_variance))
+    return Decision::descend_source;
+  const double partial = visible < 1 - almost_clear ? carried * partial_variance : 0;
+  const double at_points = (carried * relative * relative + edge_weight * partial) *
+                           (load.receiver_area > s.point_min_area ? point_share(s, load) : 0);
+  // What varies over a cluster is wrong on its patches. Rough estimates are good enough for means
+  // by the way they are chosen.
+  const double quadrature = e.by_points || !(e.factor > 0) ? 0 : e.mean_error / e.factor;
+  const double in_mean =
+      receiver.cluster
+          ? carried * relative * relative + partial
+          : (carried * quadrature * quadrature + partial / rays_before_verdict) * mean_share(load);
+  if (at_points <= s.point_variance && in_mean <= s.mean_variance) return Decision::keep;
+  const bool split =
+      load.may_split && (!source.cluster || receiver.radius >= source.radius || !load.may_descend);
+  if (split) return Decision::split_receiver;
+  return load.may_descend ? Decision::descend_source : Decision::keep;
+}
+
 int packets_wanted(const OracleSettings& s, const LinkLoad& load, const LinkEstimate& e) {
   // No pair that counts was met: everything behind a horizon or sealed.
   if (!(e.kernel_sum > 0)) return s.most_packets;
   const double visible = e.visible();
   const double variance = std::max(visible * (1 - visible), 1.0 / 18);
   // All light that is seen arrives on the exposed part of what the pairs are drawn from.
-  const double error = e.factor * load.brightness * variance * mean_share(load) /
+  const double error = e.potential() * load.brightness * variance * mean_share(load) /
                        std::max(1e-9, e.exposed * e.exposed);
   const double wanted = error / (16 * s.mean_variance);
   // Nothing seen, or nothing blocked, by n rays means a share below about 1/n, not none. Links that
   // look dark or clear are refined no further, others are: where that is to be decided by chance,
   // in this round or in a later one, few rays would lose light for good. The loss falls with 1/n^2.
   const bool even = visible <= 0 || visible >= 1;
-  const bool in_question =
-      e.factor * load.brightness * point_share(s, load) > s.last_point_variance;
-  const double most = e.exposed < 1 ? most_packets_before_verdict : s.most_packets;
+  const bool in_question = e.potential() * load.brightness * point_share(s, load) >
+                           s.last_point_variance * (e.by_points ? rough_in_question : 1);
+  const double most_to_meet = e.by_points ? s.most_packets : most_packets_before_verdict;
+  const double most = e.exposed < 1 ? most_to_meet : s.most_packets;
   const int packets = static_cast<int>(std::min(most, wanted + 1));
   if (!even) return packets;
   // Pairs on sealed points say nothing: where little is exposed it takes more to meet that little.
   const int verdict = visible <= 0 ? packets_before_dark : packets_before_verdict;
   const double least = (in_question ? verdict : 1) / std::max(1e-9, e.telling());
-  return std::max(packets, static_cast<int>(std::min<double>(most_packets_before_verdict, least)));
+  return std::max(packets, static_cast<int>(std::min<double>(most_to_meet, least)));
 }
 
 void trace_as_wanted(const OracleSettings& settings, const LinkLoad& load, LinkSampler& sampler,

@@ -19,7 +19,7 @@ struct OracleSettings {
   // Error: allowed variance of a patch mean, and of a point, per unit of irradiance carried, both
   // relative to the scene's mean irradiance.
   double mean_variance = 0, point_variance = 0;
-  double last_point_variance = 0;  // point_variance of the last round
+  double last_mean_variance = 0, last_point_variance = 0;  // those of the last round
   double point_area = 1;      // area at which point_variance holds; smaller elements may err more
   double point_min_area = 0;  // smaller receivers are not split for the sake of points
   double min_area = 0;        // nor for that of means
@@ -47,6 +47,11 @@ bool surely_good(const OracleSettings& settings, const LinkLoad& load);
 // The error oracle's verdict; estimate.factor and .variation are of the unoccluded link.
 Decision judge_error(const OracleSettings& settings, const LinkLoad& load,
                      const LinkEstimate& estimate, double size_ratio);
+
+// The same for linking=clusters, whatever the ends are.
+Decision judge_with_clusters(const OracleSettings& settings, const LinkLoad& load,
+                             const LinkEstimate& estimate, const Element& receiver,
+                             const Element& source);
 
 // The energy oracle's verdict.
 Decision judge_energy(const OracleSettings& settings, const LinkLoad& load);

@@ -40,6 +40,7 @@ PairPoints make_pattern(int number) {
     // for every quarter of the receiver, so that all sixteen parts are met once on both sides.
     const int source_quarter = shift[(quarter + turn) % 4];
     const int source_part = 4 * source_quarter + within[quarter];
+    p.source_part[k] = static_cast<int8_t>(source_part);
     point_in_place(sixteenth(k), unit_interval(mix(h, 1)), unit_interval(mix(h, 2)),
                    &p.receiver_u[k], &p.receiver_v[k]);
     point_in_place(sixteenth(source_part), unit_interval(mix(h, 3)), unit_interval(mix(h, 4)),

@@ -17,6 +17,8 @@ constexpr uint32_t quick_pairs = 0x1111;
 // Where the pairs lie: (u,v) of Triangle::at on receiver and source.
 struct PairPoints {
   float receiver_u[16], receiver_v[16], source_u[16], source_v[16];
+  int8_t
+      source_part[16];  // the sixteenth of the source; pair k starts in sixteenth k of the receiver
 };
 
 struct PairSamples {
