@@ -39,8 +39,9 @@ constexpr ParamRow kTable[] = {
                "Promised relative error (root of area-weighted mean square) of the patch means, "
                "all bands together, over the patches that do not emit."),
     text_row("linking", true, &Params::linking, "pairs|clusters|rows|auto",
-             "Method of linking: pairs of patches as in the paper, clusters of patches, rows of "
-             "rays, or the one that suits the scene and the accuracy."),
+             "Method of linking: pairs of patches as in the paper, clusters of patches where these "
+             "are far from each other, rows of rays, or the one that suits the scene and the "
+             "accuracy."),
     text_row("oracle", true, &Params::oracle, "energy|error",
              "What decides that a link is refined: the energy that it transports, or the estimate "
              "of its error."),

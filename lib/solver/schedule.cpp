@@ -58,7 +58,8 @@ OracleSettings oracle_of_round(const Params& params, const State& state, int rou
   const double accuracy = params.accuracy * scale;
   double ease = 1;
   for (int k = round; k < first_rounds; ++k) ease *= fall;
-  if (round == 0) ease = 1;  // initial links stay: their visibility must serve the last round
+  if (round == 0 && params.linking != "clusters")
+    ease = 1;  // initial links stay: their visibility must serve the last round
 
   OracleSettings s;
   s.kind = params.oracle == "energy" ? OracleKind::energy : OracleKind::error;
@@ -69,6 +70,7 @@ OracleSettings oracle_of_round(const Params& params, const State& state, int rou
       params.tolerance > 0 ? 4 * params.tolerance : point_share * std::sqrt(accuracy);
   s.mean_variance = ease * mean * mean;
   s.point_variance = ease * point * point;
+  s.last_mean_variance = mean * mean;
   s.last_point_variance = point * point;
   s.point_area = area * point_area_share;
   s.point_min_area = params.min_area > 0

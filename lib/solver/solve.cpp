@@ -117,7 +117,7 @@ class Solver::Run {
     solution_.accuracy_reached = params_.accuracy;
     if (other_mesh || other_light || more_accurate)
       solution_.finished = solution_.measuring_due = false;
-    // Of pairs the mesh stays; the last round looks at every link again under the new light.
+    // Of pairs and clusters the mesh stays; the last round looks at every link again under the new light.
     if (!by_rows_ && (other_mesh || more_accurate))
       solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
     if (other_mesh || other_light)
@@ -146,7 +146,9 @@ class Solver::Run {
 
   bool link() {
     const auto start = std::chrono::steady_clock::now();
-    const bool done = by_rows_ ? link_by_rows() : link_by_pairs();
+    const bool done = by_rows_                        ? link_by_rows()
+                      : params_.linking == "clusters" ? link_by_clusters()
+                                                      : link_by_pairs();
     solver_.stats_.seconds_linking +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!done) return false;
@@ -162,6 +164,16 @@ class Solver::Run {
     reset_to_emission(state_);
     state_.links.resize(state_.forest.nodes.size());
     return link_pairs(state_, stage, expected_brightness(state_));
+  }
+
+  bool link_by_clusters() {
+    clock_.begin("linking", 0.02, 0.1);
+    StageTools stage = tools(0);
+    measure_exposure(state_, stage);
+    if (state_.forest.clusters.empty()) add_clusters(state_.forest);
+    state_.links.resize(state_.forest.nodes.size());
+    reset_to_emission(state_);
+    return hrad::link_clusters(state_, stage, expected_brightness(state_));
   }
 
   bool link_by_rows() {
@@ -258,9 +270,6 @@ class Solver::Run {
 };
 
 Status Solver::solve() {
-  if (params_.linking == "clusters")
-    fail(Status::unsupported, "linking=%s is not in this version: use linking=rows, pairs or auto",
-         params_.linking.c_str());
   if (params_.refine == 0 && !solved())
     fail(Status::state, "there are no links to sweep over: solve once with refine=1 before");
   const double cpu = user_seconds();

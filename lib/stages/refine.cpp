@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "stages/cluster_round.h"
 #include "stages/state_memory.h"
 #include "stages/subtree_refiner.h"
 #include "stages/sweep.h"
@@ -18,6 +19,7 @@ constexpr int64_t most_links_of_a_task = 20000;
 struct Task {
   NodeId root;
   std::vector<Link> arriving;
+  std::vector<NodeId> met;  // SubtreeRefiner's
 };
 
 // Links of every node and all below it.
@@ -69,15 +71,34 @@ void store(State& state, SubtreeResult& result, std::vector<LinkTable::NewRun>& 
   if (result.handed_on)
     for (int child = 0; child < 4; ++child) {
       const int32_t at = result.nodes[0].first_child + child;
-      next.push_back({id[at], std::move(result.nodes[at].arriving)});
+      next.push_back({id[at], std::move(result.nodes[at].arriving), {}});
     }
 }
 
-}  // namespace
+void store(State& state, const ClusterRound& round, std::vector<LinkTable::NewRun>& new_links) {
+  const NodeId first = static_cast<NodeId>(state.forest.surface_count());
+  for (size_t k = 0; k < round.runs.size(); ++k)
+    new_links.push_back({first + static_cast<NodeId>(k), round.runs[k]});
+  state.rays += round.rays;
+}
 
-bool refine_links(State& state, const StageTools& tools, const Brightness& brightness) {
+// met: by the top of the clusters from outside.
+bool refine(State& state, const StageTools& tools, const Brightness& brightness,
+            Span<const NodeId> met) {
   std::vector<Task> tasks(state.forest.surface_count());
   for (size_t k = 0; k < tasks.size(); ++k) tasks[k].root = static_cast<NodeId>(k);
+  ClusterRound clusters;
+  std::unique_ptr<EndPointsTable> points;
+  StageMemory memory_of_clusters(state);
+  if (!state.forest.clusters.empty()) {
+    const PointPlacer placer{state.forest, tools.exposure, tools.engine.center(),
+                             tools.engine.offset()};
+    points = std::make_unique<EndPointsTable>(placer, tools.team);
+    memory_of_clusters.take(points->bytes(), "sample points of clusters");
+    if (!refine_clusters(state, tools, brightness, *points, met, memory_of_clusters, clusters))
+      return false;
+    for (size_t k = 0; k < tasks.size(); ++k) tasks[k].met = std::move(clusters.met[k]);
+  }
   const int64_t surfaces = state.forest.surface_count();
   int64_t finished = 0;
   while (!tasks.empty()) {
@@ -86,14 +107,15 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
     std::vector<SubtreeResult> results(tasks.size());
     std::vector<std::unique_ptr<SubtreeRefiner>> refiners(tools.team.size());
     for (auto& refiner : refiners)
-      refiner = std::make_unique<SubtreeRefiner>(state, tools, brightness);
+      refiner = std::make_unique<SubtreeRefiner>(state, tools, brightness, points.get());
     const bool going_on = tools.team.for_each(
         static_cast<int64_t>(tasks.size()),
         [&](int64_t k, int worker) {
           const Task& task = tasks[k];
-          const int64_t work = weight[task.root] + static_cast<int64_t>(task.arriving.size());
-          results[k] =
-              refiners[worker]->refine(task.root, task.arriving, work > most_links_of_a_task);
+          const int64_t work =
+              weight[task.root] + static_cast<int64_t>(task.arriving.size() + task.met.size());
+          results[k] = refiners[worker]->refine(task.root, task.arriving, task.met,
+                                                work > most_links_of_a_task);
           memory.take(bytes_of(results[k]), "refined links");
         },
         [&](int64_t done) {
@@ -105,6 +127,7 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
     if (!going_on) return false;
     std::vector<Task> next;
     std::vector<LinkTable::NewRun> new_links;
+    if (finished == 0) store(state, clusters, new_links);
     int64_t links = 0;
     for (SubtreeResult& result : results) {
       state.rays += result.rays;
@@ -123,6 +146,7 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
     tasks = std::move(next);
   }
   pull_exposure(state.forest);
+  measure_clusters(state.forest);
   // What turned out to be sealed all over receives nothing.
   std::vector<LinkTable::NewRun> sealed;
   for (size_t k = 0; k < state.forest.nodes.size(); ++k)
@@ -131,6 +155,17 @@ bool refine_links(State& state, const StageTools& tools, const Brightness& brigh
       sealed.push_back({static_cast<NodeId>(k), {}});
   state.links.replace(std::move(sealed));
   return true;
+}
+
+}  // namespace
+
+bool link_clusters(State& state, const StageTools& tools, const Brightness& brightness) {
+  const NodeId top = state.forest.top();
+  return refine(state, tools, brightness, {&top, 1});
+}
+
+bool refine_links(State& state, const StageTools& tools, const Brightness& brightness) {
+  return refine(state, tools, brightness, {});
 }
 
 }  // namespace hrad

@@ -19,7 +19,9 @@ int64_t bytes_of_links(const State& state) {
 
 int64_t bytes_of_nodes(const State& state) {
   const CornerLight& direct = state.direct;
-  return bytes_in(state.forest.nodes) + bytes_in(state.radiosity) + bytes_in(state.irradiance) +
+  const ClusterTree& tree = state.forest.clusters;
+  return bytes_in(tree.clusters) + bytes_in(tree.order) + bytes_in(tree.area_before) +
+         bytes_in(state.forest.nodes) + bytes_in(state.radiosity) + bytes_in(state.irradiance) +
          state.links.bytes() - state.links.bytes_of_links() + bytes_in(state.cells) +
          direct.mean.bytes() - direct.mean.bytes_of_links() + bytes_in(direct.of_leaf) +
          bytes_in(direct.first) + bytes_in(direct.own);

@@ -1,4 +1,4 @@
-// Weighing links, splitting receivers, descending sources, within one subtree. Floor 7 (stages).
+// The elements of one subtree and the links that each keeps. Floor 7 (stages).
 #include "stages/subtree_refiner.h"
 
 #include <algorithm>
@@ -7,12 +7,16 @@
 namespace hrad {
 namespace {
 
-// A link this well seen is taken to be seen whole until a ray says otherwise.
-constexpr double clear_view = 0.999;
+// Links of which more than this is seen cut no edge.
+constexpr float seen_whole = 0.98f;
+// What varies by the same edges from quarter to quarter of a receiver weighs as an edge does. The
+// bound without a look at the quarters: half of that.
+constexpr double quarter_weight = 8, at_most_weight = 4;
 
 }  // namespace
 
-SubtreeResult SubtreeRefiner::refine(NodeId root, Span<const Link> arriving, bool hand_on) {
+SubtreeResult SubtreeRefiner::refine(NodeId root, Span<const Link> arriving, Span<const NodeId> met,
+                                     bool hand_on) {
   result_ = SubtreeResult{};
   work_.clear();
   hand_on_ = hand_on;
@@ -20,12 +24,15 @@ SubtreeResult SubtreeRefiner::refine(NodeId root, Span<const Link> arriving, boo
   add(state_.forest.nodes[root], root, -1);
   adopt_children(0);
   for (const Link& link : arriving) weigh(0, link);
+  if (result_.nodes[0].place.exposed > 0)
+    for (NodeId source : met) meet(0, source, 0);
   // Nodes are appended while the loop runs: children, old and new, come after their parents.
   for (size_t at = 0; at < result_.nodes.size(); ++at) {
     const NodeId id = result_.nodes[at].old_id;
     const bool own = id >= 0 && (!hand_on || at == 0);
     if (own)
       for (const Link& link : state_.links[id].links()) weigh(static_cast<int32_t>(at), link);
+    if (points_ && (!hand_on || at == 0)) split_uneven(static_cast<int32_t>(at));
     if (!hand_on && at > 0 && id >= 0) adopt_children(static_cast<int32_t>(at));
   }
   result_.handed_on = hand_on && result_.nodes[0].first_child >= 0;
@@ -75,6 +82,11 @@ const Element& SubtreeRefiner::element(int32_t at) {
   if (!work.known) {
     work.element = element_of(state_.forest, result_.nodes[at].place);
     work.key = key_of(state_.forest, result_.nodes[at].place);
+    if (points_) {
+      work.points = std::make_unique<EndPoints>();
+      sampler_.placer().place(work.element, work.key, *work.points);
+      work.element.points = work.points.get();
+    }
     work.known = true;
   }
   return work.element;
@@ -94,8 +106,9 @@ LinkLoad SubtreeRefiner::load_of(int32_t at, const Link& link, double source_are
   load.may_split = place.level < max_level && load.receiver_area > tools_.oracle.min_area;
   // Children that an earlier pass of this round has made don't count yet: the round sees the state
   // that it began with.
-  load.may_descend = source.first_child >= 0 &&
-                     static_cast<size_t>(source.first_child) < brightness_.of_node.size();
+  load.may_descend = Forest::is_cluster(source) ||
+                     (source.first_child >= 0 &&
+                      static_cast<size_t>(source.first_child) < brightness_.of_node.size());
   const float* radiosity = &state_.radiosity[static_cast<size_t>(link.source) * state_.bands];
   if (tools_.oracle.kind == OracleKind::energy)
     for (int band = 0; band < state_.bands; ++band)
@@ -103,21 +116,36 @@ LinkLoad SubtreeRefiner::load_of(int32_t at, const Link& link, double source_are
   return load;
 }
 
+Element SubtreeRefiner::source_of(NodeId id) const {
+  Element source = element_of(state_.forest, state_.forest.nodes[id]);
+  if (points_) source.points = points_->of(id);
+  return source;
+}
+
+// What LinkSampler::begin allows: no more than what serves the last round.
+double SubtreeRefiner::allowed_of(int32_t at, NodeId source) const {
+  if (!points_) return 0;
+  const Node& place = result_.nodes[at].place;
+  const double share = state_.forest.area(place) / state_.forest.surfaces[place.surface].area;
+  return tools_.oracle.last_mean_variance /
+         std::max(1e-9, share * static_cast<double>(brightness_.of_node[source]));
+}
+
 // An old link, or one that came down from an earlier pass: the weight is known, the geometry isn't.
 void SubtreeRefiner::weigh(int32_t at, Link link) {
   const LinkLoad load = load_of(at, link, state_.forest.area(state_.forest.nodes[link.source]));
   if (surely_good(tools_.oracle, load) || (!load.may_split && !load.may_descend)) {
-    work_[at].out.push_back(link);
+    keep(at, link);
     return;
   }
   const Node& source_node = state_.forest.nodes[link.source];
-  const Element source = element_of(state_.forest, source_node);
+  const Element source = source_of(link.source);
   DrawnPairs drawn;
   LinkEstimate estimate;
   if (tools_.oracle.kind == OracleKind::error || load.may_split) {
     const Element& receiver = element(at);
     const uint64_t key = sampler_.link_key(work_[at].key, key_of(state_.forest, source_node));
-    sampler_.begin(receiver, source, key, drawn, estimate);
+    sampler_.begin(receiver, source, key, drawn, estimate, allowed_of(at, link.source));
   }
   weigh_known(at, link, source, estimate);
 }
@@ -125,115 +153,61 @@ void SubtreeRefiner::weigh(int32_t at, Link link) {
 void SubtreeRefiner::weigh_known(int32_t at, Link link, const Element& source,
                                  const LinkEstimate& estimate) {
   const LinkLoad load = load_of(at, link, source.area);
-  Decision decision;
-  if (surely_good(tools_.oracle, load)) {
-    decision = Decision::keep;
-  } else if (tools_.oracle.kind == OracleKind::energy) {
-    decision = judge_energy(tools_.oracle, load);
-  } else {
-    const double distance = length(source.centroid - element(at).centroid);
-    const double size = element(at).radius + source.radius;
-    decision = judge_error(tools_.oracle, load, estimate, distance > 0 ? size / distance : 1);
-  }
+  const Decision decision = judge(at, load, source, estimate);
   if (decision == Decision::keep) {
-    work_[at].out.push_back(link);
+    const double seen = estimate.factor > 0 ? std::min(1.0, link.weight / estimate.factor) : 1;
+    work_[at].uneven += estimate.potential() * load.brightness * std::sqrt(seen * (1 - seen));
+    keep(at, link, seen);
+  } else
+    follow(decision, at, link, source, estimate);
+}
+
+void SubtreeRefiner::keep(int32_t at, Link link, double seen) {
+  work_[at].out.push_back(link);
+  work_[at].seen.push_back(static_cast<float>(seen));
+}
+
+// Many links that carry little each are cut off by the same edge: what is within a link's tolerance
+// adds up, in a gap behind a cupboard to all the light there is.
+void SubtreeRefiner::split_uneven(int32_t at) {
+  const Node& place = result_.nodes[at].place;
+  const OracleSettings& s = tools_.oracle;
+  const double area = state_.forest.area(place);
+  if (s.kind == OracleKind::energy || place.level >= max_level || area <= s.point_min_area ||
+      area <= s.min_area)
     return;
-  }
-  const double visible = estimate.factor > 0 ? std::min(1.0, link.weight / estimate.factor) : 0;
-  if (decision == Decision::split_receiver)
-    split(at, source, link, visible);
-  else
-    descend(at, link, visible);
-}
-
-void SubtreeRefiner::split(int32_t at, const Element& source, Link link, double visible) {
-  make_children(at);
-  const int32_t first = result_.nodes[at].first_child;
-  const uint64_t source_key = key_of(state_.forest, state_.forest.nodes[link.source]);
-  DrawnPairs drawn[4];
-  LinkEstimate estimate[4];
-  bool any = false;
-  for (int child = 0; child < 4; ++child) {
-    const Element& receiver = element(first + child);
-    if (receiver.exposed <= 0) continue;
-    const uint64_t key = sampler_.link_key(work_[first + child].key, source_key);
-    sampler_.begin(receiver, source, key, drawn[child], estimate[child]);
-    any = any || estimate[child].factor > 0;
-  }
-  if (!any) return;
-  // A clear view is probed by four rays from each child, in one packet.
-  uint32_t probed = 0, blocked = 0;
-  if (visible >= clear_view && LinkSampler::may_probe(element(at), source)) {
-    SegmentPacket packet;
-    packet.active = all_pairs;
-    for (int to = 0; to < 16; ++to) {
-      const int child = to / 4, lane = 4 * (to % 4);
-      if (!(estimate[child].factor > 0)) {
-        packet.active &= ~(1u << to);
-        packet.ox[to] = packet.oy[to] = packet.oz[to] = 0;
-        packet.dx[to] = packet.dy[to] = packet.dz[to] = 0;
-        continue;
-      }
-      const SegmentPacket& from = drawn[child].samples.packet;
-      packet.ox[to] = from.ox[lane];
-      packet.oy[to] = from.oy[lane];
-      packet.oz[to] = from.oz[lane];
-      packet.dx[to] = from.dx[lane];
-      packet.dy[to] = from.dy[lane];
-      packet.dz[to] = from.dz[lane];
-    }
-    blocked = tools_.engine.blocked(packet) & packet.active;
-    probed = 1;
-  }
-  for (int child = 0; child < 4; ++child) {
-    LinkEstimate& e = estimate[child];
-    if (!(e.factor > 0)) continue;
-    const uint32_t mine = blocked >> (4 * child) & 0xf;
-    if (probed && mine == 0) sampler_.add(drawn[child], quick_pairs, 0, e);
-    if (!(e.kernel_sum > 0)) {
-      e = traced(first + child, source, source_key, link.source, drawn[child], e);
-    }
-    const double weight = std::min(1.0, e.weight());
-    if (!(weight > 0)) continue;
-    const Link next{link.source, static_cast<float>(weight)};
-    if (hand_on_)
-      work_[first + child].out.push_back(next);
+  const double share = std::min(1.0, area / s.point_area);
+  const double at_most = work_[at].uneven;
+  if (at_most * at_most * at_most_weight * share <= s.point_variance) return;
+  double quarter[4] = {};
+  for (size_t k = 0; k < work_[at].out.size(); ++k)
+    if (work_[at].seen[k] < seen_whole) add_quarters(at, work_[at].out[k].source, quarter);
+  const auto range = std::minmax({quarter[0], quarter[1], quarter[2], quarter[3]});
+  const double half = (range.second - range.first) / 2;
+  if (half * half * quarter_weight * share <= s.point_variance) return;
+  const std::vector<Link> links = std::move(work_[at].out);
+  const std::vector<float> seen = std::move(work_[at].seen);
+  work_[at].out.clear();
+  work_[at].seen.clear();
+  for (size_t k = 0; k < links.size(); ++k) {
+    if (seen[k] >= seen_whole)
+      keep(at, links[k], seen[k]);
     else
-      weigh_known(first + child, next, source, e);
+      split(at, source_of(links[k].source), links[k], seen[k]);
   }
 }
 
-void SubtreeRefiner::descend(int32_t at, Link link, double visible) {
-  const NodeId first = state_.forest.nodes[link.source].first_child;
-  for (int child = 0; child < 4; ++child) {
-    const NodeId id = first + child;
-    const Node& place = state_.forest.nodes[id];
-    if (place.exposed <= 0) continue;
-    const Element source = element_of(state_.forest, place);
-    const uint64_t source_key = key_of(state_.forest, place);
-    DrawnPairs drawn;
-    LinkEstimate e;
-    const Element& receiver = element(at);
-    sampler_.begin(receiver, source, sampler_.link_key(work_[at].key, source_key), drawn, e);
-    if (!(e.factor > 0)) continue;
-    if (visible >= clear_view && LinkSampler::may_probe(receiver, source)) {
-      SegmentPacket probe = drawn.samples.packet;
-      probe.active = quick_pairs;
-      const uint32_t blocked = tools_.engine.blocked(probe);
-      if ((blocked & quick_pairs) == 0) sampler_.add(drawn, quick_pairs, 0, e);
-    }
-    if (!(e.kernel_sum > 0)) e = traced(at, source, source_key, id, drawn, e);
-    const double weight = std::min(1.0, e.weight());
-    if (weight > 0) weigh_known(at, {id, static_cast<float>(weight)}, source, e);
-  }
-}
-
-LinkEstimate SubtreeRefiner::traced(int32_t at, const Element& source, uint64_t source_key,
-                                    NodeId source_id, DrawnPairs& drawn, LinkEstimate begun) {
-  const LinkLoad load = load_of(at, {source_id, static_cast<float>(begun.factor)}, source.area);
-  trace_as_wanted(tools_.oracle, load, sampler_, element(at), source,
-                  sampler_.link_key(work_[at].key, source_key), drawn, begun);
-  return begun;
+// Adds what each quarter of the receiver sees of the source.
+void SubtreeRefiner::add_quarters(int32_t at, NodeId id, double quarter[4]) {
+  const Element source = source_of(id);
+  const uint64_t key =
+      sampler_.link_key(work_[at].key, key_of(state_.forest, state_.forest.nodes[id]));
+  DrawnPairs drawn;
+  LinkEstimate e;
+  sampler_.begin(element(at), source, key, drawn, e, allowed_of(at, id));
+  sampler_.trace(element(at), source, key, drawn, e);
+  for (int q = 0; q < 4; ++q)
+    quarter[q] += e.quarter_sum[q] / 4 * e.source_area * brightness_.of_node[id];
 }
 
 }  // namespace hrad

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/cluster_sweep.h"
+
 namespace hrad {
 namespace {
 
@@ -88,13 +90,15 @@ class PushPull {
 template <int Bands>
 std::vector<double> push_pull_all(State& state, ThreadTeam& team) {
   const Scene& scene = *state.forest.scene;
-  const double nothing[most_bands] = {};
   return surface_sums(state, team, [&](NodeId root, double* row) {
     const Surface& surface = state.forest.surfaces[root];
     const size_t patch = static_cast<size_t>(surface.patch) * state.bands;
-    double weight = 0;
+    double weight = 0, from_above[most_bands] = {};
+    const NodeId cluster = state.forest.nodes[root].parent;
+    for (int b = 0; b < state.bands && cluster >= 0; ++b)
+      from_above[b] = state.irradiance[static_cast<size_t>(cluster) * state.bands + b];
     PushPull<Bands>(state, &scene.emission[patch], &scene.reflectance[patch])
-        .go(root, nothing, row, &weight);
+        .go(root, from_above, row, &weight);
     for (int b = 0; b < state.bands; ++b) row[b] *= surface.area;
   });
 }
@@ -139,9 +143,12 @@ float spread_below(const State& state, NodeId id, const std::vector<double>& uni
 }  // namespace
 
 std::vector<double> push_pull(State& state, ThreadTeam& team) {
-  if (state.bands == 3) return push_pull_all<3>(state, team);
-  if (state.bands == 1) return push_pull_all<1>(state, team);
-  return push_pull_all<0>(state, team);
+  push_to_roots(state);
+  const std::vector<double> transported = state.bands == 3   ? push_pull_all<3>(state, team)
+                                          : state.bands == 1 ? push_pull_all<1>(state, team)
+                                                             : push_pull_all<0>(state, team);
+  pull_to_clusters(state);
+  return transported;
 }
 
 void pull_exposure(Forest& forest) {
@@ -159,11 +166,13 @@ void reset_to_emission(State& state) {
   state.radiosity.resize(count * state.bands);
   state.irradiance.assign(count * state.bands, 0.0f);
   for (size_t k = 0; k < count; ++k) {
+    if (Forest::is_cluster(state.forest.nodes[k])) continue;
     const int32_t patch = state.forest.surfaces[state.forest.nodes[k].surface].patch;
     for (int b = 0; b < state.bands; ++b)
       state.radiosity[k * state.bands + b] =
           static_cast<float>(scene.emission[static_cast<size_t>(patch) * state.bands + b]);
   }
+  pull_to_clusters(state);
 }
 
 Brightness measure_brightness(const State& state, ThreadTeam& team) {
@@ -184,15 +193,17 @@ Brightness measure_brightness(const State& state, ThreadTeam& team) {
   for_each_surface(state, team, [&](NodeId root) {
     spread_below(state, root, brightness.unit, brightness.spread);
   });
+  spread_to_clusters(state.forest, brightness);
   return brightness;
 }
 
-Brightness expected_brightness(const State& state) {
+Brightness expected_brightness(State& state) {
   const Scene& scene = *state.forest.scene;
+  const Forest& forest = state.forest;
   const int bands = state.bands;
   std::vector<double> power(bands, 0.0), reflecting(bands, 0.0);
   double area = 0;
-  for (const Surface& surface : state.forest.surfaces) {
+  for (const Surface& surface : forest.surfaces) {
     area += surface.area;
     for (int b = 0; b < bands; ++b) {
       const size_t at = static_cast<size_t>(surface.patch) * bands + b;
@@ -208,7 +219,8 @@ Brightness expected_brightness(const State& state) {
   brightness.of_node.resize(state.forest.nodes.size());
   brightness.spread.assign(state.forest.nodes.size(), 0.0f);
   for (size_t k = 0; k < brightness.of_node.size(); ++k) {
-    const int32_t patch = state.forest.surfaces[state.forest.nodes[k].surface].patch;
+    if (Forest::is_cluster(forest.nodes[k])) continue;
+    const int32_t patch = forest.surfaces[forest.nodes[k].surface].patch;
     double largest = 0;
     for (int b = 0; b < bands; ++b) {
       const size_t at = static_cast<size_t>(patch) * bands + b;
@@ -218,6 +230,7 @@ Brightness expected_brightness(const State& state) {
     }
     brightness.of_node[k] = static_cast<float>(largest);
   }
+  brighten_clusters(state.forest, brightness);
   return brightness;
 }
 

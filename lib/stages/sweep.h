@@ -24,6 +24,6 @@ Brightness measure_brightness(const State& state, ThreadTeam& team);
 
 // Before there is any irradiance: emitters by emission, the rest by the scene's mean
 // interreflection.
-Brightness expected_brightness(const State& state);
+Brightness expected_brightness(State& state);
 
 }  // namespace hrad

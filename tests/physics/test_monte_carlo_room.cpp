@@ -13,8 +13,8 @@ struct Case {
   const char* linking;
   double accuracy;
 };
-constexpr Case kCases[] = {
-    {"rows", 0.05}, {"rows", 0.02}, {"rows", 0.01}, {"pairs", 0.05}, {"pairs", 0.02}};
+constexpr Case kCases[] = {{"rows", 0.05},  {"rows", 0.02},     {"rows", 0.01},    {"pairs", 0.05},
+                           {"pairs", 0.02}, {"clusters", 0.05}, {"clusters", 0.02}};
 
 void accuracy_is_kept() {
   ApiSolver loaded;

@@ -79,6 +79,15 @@ struct Workbench {
     CHECK(hrad::link_pairs(state, tools(oracle), hrad::expected_brightness(state)));
   }
 
+  // The same by clusters.
+  void link_by_clusters(const hrad::OracleSettings& oracle) {
+    const hrad::LinkSampler measure = sampler(oracle.near_ratio, oracle.seed);
+    for (hrad::Node& node : state.forest.nodes) node.exposed = measure.exposed_share(node);
+    hrad::add_clusters(state.forest);
+    prepare();
+    CHECK(hrad::link_clusters(state, tools(oracle), hrad::expected_brightness(state)));
+  }
+
   void sweep(int times) {
     for (int k = 0; k < times; ++k) {
       hrad::gather(state, team);
