@@ -117,7 +117,8 @@ class Solver::Run {
     solution_.accuracy_reached = params_.accuracy;
     if (other_mesh || other_light || more_accurate)
       solution_.finished = solution_.measuring_due = false;
-    // Of pairs and clusters the mesh stays; the last round looks at every link again under the new light.
+    // Of pairs and clusters the mesh stays; the last round looks at every link again under the new
+    // light.
     if (!by_rows_ && (other_mesh || more_accurate))
       solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
     if (other_mesh || other_light)
