@@ -18,15 +18,15 @@ constexpr float beyond = 0.5f;
 void straighten(const CornerIndex& index, int32_t surface, LatticePoint a, LatticePoint b,
                 int bands, std::vector<float>& value) {
   if (((a.i + b.i) | (a.j + b.j)) & 1) return;
-  const LatticePoint middle{(a.i + b.i) / 2, (a.j + b.j) / 2};
-  const int32_t hanging = index.find(surface, middle);
+  const LatticePoint between = middle(a, b);
+  const int32_t hanging = index.find(surface, between);
   if (hanging < 0) return;
   const size_t from = static_cast<size_t>(index.find(surface, a)) * bands;
   const size_t to = static_cast<size_t>(index.find(surface, b)) * bands;
   for (int k = 0; k < bands; ++k)
     value[static_cast<size_t>(hanging) * bands + k] = (value[from + k] + value[to + k]) / 2;
-  straighten(index, surface, a, middle, bands, value);
-  straighten(index, surface, middle, b, bands, value);
+  straighten(index, surface, a, between, bands, value);
+  straighten(index, surface, between, b, bands, value);
 }
 
 }  // namespace
