@@ -21,8 +21,6 @@ class DirectLight {
   DirectLight(const Forest& forest, const VisibilityEngine& engine, const Emitters& emitters,
               const LightGrid& grid, double noise);
 
-  const Emitters& emitters() const { return emitters_; }
-
   // Appends one link per visible surface of every emitter that is worth sampling there,
   // weight = form factor times visible fraction. The point lies on a surface, not lifted. Any
   // thread. Returns the number of rays.

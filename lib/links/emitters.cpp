@@ -92,13 +92,13 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
   for (Emitter& e : emitters_) finish(forest, e);
 }
 
-bool Emitters::can_be_sampled(const Emitter& e, Vec3 center, double radius) const {
+bool Emitters::can_be_sampled(const Emitter& e, Vec3 center, double radius, double share) const {
   const Vec3 d = e.center - center;
   const double above = radius - dot(d, e.normal);
   if (!(above > 0)) return false;
   const double distance = std::max(length(d) - radius, e.radius);
-  return is_sampled(
-      e, std::min(1.0, e.area * std::min(1.0, above / distance) / (pi * distance * distance)));
+  return is_sampled(e, share * std::min(1.0, e.area * std::min(1.0, above / distance) /
+                                                 (pi * distance * distance)));
 }
 
 double Emitters::rough_factor(const Emitter& e, Vec3 x, Vec3 normal) {

@@ -43,8 +43,8 @@ class Emitters {
   bool is_sampled(const Emitter& emitter, double factor) const {
     return is_bright(emitter, factor * sampling_margin);
   }
-  // False: at no point of this ball is the emitter sampled.
-  bool can_be_sampled(const Emitter& emitter, Vec3 center, double radius) const;
+  // False: at no point of this ball is the emitter sampled, if but `share` of it is visible.
+  bool can_be_sampled(const Emitter& emitter, Vec3 center, double radius, double share = 1) const;
 
  private:
   static constexpr double sampling_margin = 2;

@@ -20,8 +20,7 @@ double edge_term(Vec3 a, Vec3 b, Vec3 normal) {
 double point_to_triangle(Vec3 x, Vec3 normal, const Triangle& source) {
   if (dot(source.area_vector(), source.a - x) >= 0) return 0;  // x sees its back
   const Vec3 corner[3] = {source.a - x, source.b - x, source.c - x};
-  const double height[3] = {dot(corner[0], normal), dot(corner[1], normal),
-                            dot(corner[2], normal)};
+  const double height[3] = {dot(corner[0], normal), dot(corner[1], normal), dot(corner[2], normal)};
   double sum = 0;
   Vec3 leaving, entering;  // where the outline crosses the horizon
   bool crosses = false;

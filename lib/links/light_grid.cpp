@@ -9,68 +9,114 @@
 namespace hrad {
 namespace {
 
-constexpr int pilot_packets = 2;
+constexpr double coarse_cubes = 4;  // times as large as fine ones
+constexpr int coarse_packets = 8, fine_packets = 2;
+constexpr int32_t none = -1;
 
 }  // namespace
 
-Vec3 LightGrid::corner_of(Vec3 place) const {
-  const Vec3 at = (place - engine_.center()) * (1 / size_);
+LightGrid::LightGrid(const Emitters& emitters, const VisibilityEngine& engine, double size)
+    : emitters_(emitters),
+      engine_(engine),
+      coarse_{coarse_cubes * size, coarse_packets, {}, {}},
+      fine_{size, fine_packets, {}, {}} {}
+
+const std::vector<LightGrid::Candidate>& LightGrid::at(const OrientedPoint& point) const {
+  return fine_.cubes[fine_.number.at(key_of(fine_, point))].candidates;
+}
+
+bool LightGrid::by_links(int32_t emitter, const OrientedPoint& middle) const {
+  if (!emitters_.bright(emitters_.all()[emitter], middle.place, middle.normal)) return false;
+  const std::vector<Candidate>& candidates = at(middle);
+  const auto found = std::lower_bound(
+      candidates.begin(), candidates.end(), emitter,
+      [](const Candidate& candidate, int32_t number) { return candidate.emitter < number; });
+  return found != candidates.end() && found->emitter == emitter;
+}
+
+Vec3 LightGrid::corner_of(const Grid& grid, Vec3 place) const {
+  const Vec3 at = (place - engine_.center()) * (1 / grid.size);
   return {std::floor(at.x), std::floor(at.y), std::floor(at.z)};
 }
 
-uint64_t LightGrid::key_of(const OrientedPoint& p) const {
+uint64_t LightGrid::key_of(const Grid& grid, const OrientedPoint& p) const {
   const double x = std::fabs(p.normal.x), y = std::fabs(p.normal.y), z = std::fabs(p.normal.z);
   const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
   uint64_t key = static_cast<uint64_t>(2 * axis + (p.normal[axis] < 0));
-  const Vec3 corner = corner_of(p.place);
+  const Vec3 corner = corner_of(grid, p.place);
   for (double c : {corner.x, corner.y, corner.z})
     key = key << 20 | (static_cast<uint64_t>(static_cast<int64_t>(c)) & 0xfffff);
   return key;
 }
 
-int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team) {
-  const size_t before = cubes_.size();
+// Gives the points to the cubes that are new; returns the number of the first of those.
+size_t LightGrid::add_cubes(Grid& grid, const std::vector<OrientedPoint>& points) const {
+  const size_t before = grid.cubes.size();
   for (size_t k = 0; k < points.size(); ++k) {
     const auto found =
-        number_.emplace(key_of(points[k]), static_cast<int32_t>(cubes_.size())).first;
-    if (static_cast<size_t>(found->second) == cubes_.size()) cubes_.emplace_back();
+        grid.number.emplace(key_of(grid, points[k]), static_cast<int32_t>(grid.cubes.size())).first;
+    if (static_cast<size_t>(found->second) == grid.cubes.size()) grid.cubes.emplace_back();
     if (static_cast<size_t>(found->second) >= before)
-      cubes_[found->second].points.push_back(static_cast<int32_t>(k));
+      grid.cubes[found->second].points.push_back(static_cast<int32_t>(k));
   }
-  std::vector<int64_t> rays(cubes_.size() - before, 0);
-  team.for_each(static_cast<int64_t>(rays.size()), [&](int64_t k, int) {
-    rays[k] = find_emitters(points, cubes_[before + static_cast<size_t>(k)]);
-  });
+  return before;
+}
+
+int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team) {
+  const size_t first_coarse = add_cubes(coarse_, points), first_fine = add_cubes(fine_, points);
+  for (size_t k = first_fine; k < fine_.cubes.size(); ++k) {
+    Cube& cube = fine_.cubes[k];
+    cube.around = coarse_.number.at(key_of(coarse_, points[cube.points.front()]));
+  }
   int64_t all = 0;
-  for (int64_t r : rays) all += r;
+  for (Grid* grid : {&coarse_, &fine_}) {
+    const size_t first = grid == &coarse_ ? first_coarse : first_fine;
+    std::vector<int64_t> rays(grid->cubes.size() - first, 0);
+    team.for_each(static_cast<int64_t>(rays.size()), [&](int64_t k, int) {
+      rays[k] = find_emitters(points, *grid, grid->cubes[first + static_cast<size_t>(k)]);
+    });
+    for (int64_t r : rays) all += r;
+  }
   return all;
 }
 
-int64_t LightGrid::find_emitters(const std::vector<OrientedPoint>& points, Cube& cube) const {
+int64_t LightGrid::find_emitters(const std::vector<OrientedPoint>& points, const Grid& grid,
+                                 Cube& cube) const {
   int64_t rays = 0;
-  const Vec3 corner = corner_of(points[cube.points.front()].place);
-  const Vec3 center = engine_.center() + (corner + Vec3{0.5, 0.5, 0.5}) * size_;
-  const double radius = 0.87 * size_;  // half the diagonal
-  for (size_t e = 0; e < emitters_.all().size(); ++e) {
-    const Emitter& emitter = emitters_.all()[e];
-    if (emitters_.can_be_sampled(emitter, center, radius))
-      cube.candidates.push_back({static_cast<int32_t>(e), hidden(emitter, points, cube, rays)});
-  }
+  const Vec3 corner = corner_of(grid, points[cube.points.front()].place);
+  const Vec3 center = engine_.center() + (corner + Vec3{0.5, 0.5, 0.5}) * grid.size;
+  const double radius = 0.87 * grid.size;  // half the diagonal
+  const auto look_at = [&](int32_t number, bool hidden_around) {
+    const Emitter& emitter = emitters_.all()[number];
+    if (!emitters_.can_be_sampled(emitter, center, radius)) return;
+    const int packets = hidden_around ? coarse_packets : grid.pilot_packets;
+    const bool is_hidden = hidden_around || hidden(emitter, points, cube, packets, rays);
+    // As much of it may be visible.
+    if (is_hidden && !emitters_.can_be_sampled(emitter, center, radius, 1.0 / (16 * packets)))
+      return;
+    cube.candidates.push_back({number, is_hidden});
+  };
+  if (cube.around == none)
+    for (size_t e = 0; e < emitters_.all().size(); ++e) look_at(static_cast<int32_t>(e), false);
+  else
+    for (const Candidate& candidate : coarse_.cubes[cube.around].candidates)
+      look_at(candidate.emitter, candidate.hidden);
   cube.points = std::vector<int32_t>();
   return rays;
 }
 
 // There were pilot rays, from points spread over those of the cube, and all were blocked.
 bool LightGrid::hidden(const Emitter& emitter, const std::vector<OrientedPoint>& points,
-                       const Cube& cube, int64_t& rays) const {
+                       const Cube& cube, int packets, int64_t& rays) const {
   bool any = false;
-  for (int pass = 0; pass < pilot_packets; ++pass) {
+  for (int pass = 0; pass < packets; ++pass) {
     SegmentPacket packet;
     const size_t count = cube.points.size();
     for (size_t k = 0; k < 16; ++k) {
       const size_t turn = 16 * static_cast<size_t>(pass) + k;
       const OrientedPoint& p =
-          points[cube.points[count > 16 ? turn * count / (16 * pilot_packets) : turn % count]];
+          points[cube.points[count > 16 ? turn * count / (16 * static_cast<size_t>(packets))
+                                        : turn % count]];
       const Vec3 from = p.place + p.normal * engine_.offset();
       // Another point of the emitter each time round.
       const Vec3 y = emitter.point[(k + 5 * static_cast<size_t>(pass)) % 16];

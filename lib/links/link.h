@@ -1,6 +1,6 @@
-// Links: who sends light to whom. A link belongs to its receiver and names its source; its weight is
-// form factor times visible fraction, from receiver to source, so that the irradiance it brings is
-// weight times the source's radiosity. Floor 6 (links).
+// Links: who sends light to whom. A link belongs to its receiver and names its source; its weight
+// is form factor times visible fraction, from receiver to source, so that the irradiance it brings
+// is weight times the source's radiosity. Floor 6 (links).
 #pragma once
 
 #include "hierarchy/forest.h"

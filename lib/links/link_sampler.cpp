@@ -188,6 +188,8 @@ float LinkSampler::exposed_share(const Node& place) const {
   const Surface& surface = forest_.surfaces[place.surface];
   if (!exposure_.can_be_sealed(surface.patch, surface.side)) return 1;
   const Triangle corners = forest_.triangle(place);
+  const Exposure::Part part(exposure_, surface.patch, surface.side, corners);
+  if (!part.can_be_sealed()) return 1;
   const uint64_t key = key_of(forest_, place);
   // Few sets tell most elements that are sealed not at all or all over; the borders take more. A
   // strip that all sets miss is lost, so that larger elements take more too.
@@ -199,7 +201,7 @@ float LinkSampler::exposed_share(const Node& place) const {
     for (int k = 0; k < lanes_per_packet; ++k) {
       double uv[2];
       spread_point(mix(key, set), k, uv);
-      exposed += !exposure_.sealed(surface.patch, surface.side, corners.at(uv[0], uv[1]));
+      exposed += !part.sealed(corners.at(uv[0], uv[1]));
     }
     if (sets >= least_sets && (exposed == 0 || exposed == sets * lanes_per_packet)) break;
   }

@@ -8,7 +8,8 @@
 namespace hrad {
 namespace {
 
-// Subdivided until the radius is below this share of the distance, but not deeper than so many levels.
+// Subdivided until the radius is below this share of the distance, but not deeper than so many
+// levels.
 constexpr double fine_enough = 0.7;
 constexpr int deepest = 3;
 
@@ -19,10 +20,14 @@ struct Part {
 Triangle quarter(const Triangle& t, int k) {
   const Vec3 ab = (t.a + t.b) * 0.5, bc = (t.b + t.c) * 0.5, ca = (t.c + t.a) * 0.5;
   switch (k) {
-    case 0: return {t.a, ab, ca};
-    case 1: return {ab, t.b, bc};
-    case 2: return {ca, bc, t.c};
-    default: return {bc, ca, ab};
+    case 0:
+      return {t.a, ab, ca};
+    case 1:
+      return {ab, t.b, bc};
+    case 2:
+      return {ca, bc, t.c};
+    default:
+      return {bc, ca, ab};
   }
 }
 
@@ -47,8 +52,7 @@ Part four_points(const Triangle& t, Vec3 normal, const Triangle& to, double valu
 
 Part integrate(const Triangle& t, Vec3 normal, const Triangle& to, int level) {
   const Vec3 center = t.centroid();
-  if (level == deepest ||
-      radius_of(t, center) <= fine_enough * distance_to_triangle(center, to)) {
+  if (level == deepest || radius_of(t, center) <= fine_enough * distance_to_triangle(center, to)) {
     double unused[4];
     return four_points(t, normal, to, unused);
   }

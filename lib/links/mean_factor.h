@@ -15,8 +15,8 @@ struct MeanFactor {
   double half_range = 0;  // half the range among the four quarters of `from`
 };
 
-// normal: of `from`, length 1. The number of points follows from the geometry alone, never from what
-// they see: a small bright spot that a first few points miss must not pass for darkness.
+// normal: of `from`, length 1. The number of points follows from the geometry alone, never from
+// what they see: a small bright spot that a first few points miss must not pass for darkness.
 MeanFactor mean_factor(const Triangle& from, Vec3 normal, const Triangle& to);
 
 }  // namespace hrad

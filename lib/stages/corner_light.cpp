@@ -230,7 +230,7 @@ bool CornerSampler::exposed_within(const Node& node, Vec3* place) const {
 
 void CornerSampler::drop_what_is_unnamed() {
   CornerLight& direct = state_.direct;
-  const Emitters& emitters = light_.emitters();
+  const Emitters& emitters = grid_.emitters();
   constexpr int32_t unnamed = -1, named = -2;
   std::vector<int32_t> number(direct.corner_count(), unnamed);
   for (const auto& corners : direct.of_leaf)
@@ -240,11 +240,12 @@ void CornerSampler::drop_what_is_unnamed() {
   for (size_t k = 0; k < number.size(); ++k) {
     if (number[k] == unnamed) continue;
     const uint32_t begin = direct.first[k], end = direct.first[k + 1];
-    const Vec3 place{place_[k].x, place_[k].y, place_[k].z};
+    const OrientedPoint point{{place_[k].x, place_[k].y, place_[k].z},
+                              state_.forest.surfaces[place_[k].surface].normal};
     direct.first[kept] = static_cast<uint32_t>(links);
     for (uint32_t l = begin; l < end; ++l) {
       const Emitter& emitter = emitters.all()[emitters.of_root(direct.links[l].source)];
-      if (emitters.bright(emitter, place, state_.forest.surfaces[place_[k].surface].normal))
+      if (emitters.bright(emitter, point.place, point.normal))
         direct.links[links++] = direct.links[l];
     }
     number[k] = static_cast<int32_t>(kept++);

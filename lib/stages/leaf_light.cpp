@@ -30,11 +30,9 @@ void coordinates_in(const Triangle& t, Vec3 point, double* x, double* y) {
 
 }  // namespace
 
-bool has_direct_light(const Forest& forest, const Emitters& emitters, int32_t emitter,
-                      NodeId leaf) {
+OrientedPoint middle_of(const Forest& forest, NodeId leaf) {
   const Node& node = forest.nodes[leaf];
-  return emitters.bright(emitters.all()[emitter], forest.triangle(node).centroid(),
-                         forest.surfaces[node.surface].normal);
+  return {forest.triangle(node).centroid(), forest.surfaces[node.surface].normal};
 }
 
 // Of the mean of a leaf: numbers of sampled points, and their weights.
@@ -62,12 +60,15 @@ bool LeafLight::name() {
   named_ = end;
   take_own_points(partly_sealed);
   std::vector<int32_t> centroids;
+  std::vector<OrientedPoint> middles;
   for (NodeId leaf : leaves) {
+    middles.push_back(middle_of(forest_, leaf));
     const bool wanted = forest_.nodes[leaf].light_points == at_corners;
     centroids.push_back(wanted ? corners_.add(leaf, number_of_centroid,
                                               forest_.triangle(forest_.nodes[leaf]).centroid())
                                : -1);
   }
+  state_.rays += grid_.open(middles, tools_.team);
   if (!corners_.sample()) return false;
   add_up_means(leaves, centroids);
   return true;
@@ -171,6 +172,7 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
          ++k) {
       all.clear();
       const Shares shares = shares_of_mean(leaves[k], centroids[k]);
+      const OrientedPoint middle = middle_of(forest_, leaves[k]);
       for (int p = 0; p < shares.count; ++p)
         for (uint32_t l = direct.first[shares.number[p]]; l < direct.first[shares.number[p] + 1];
              ++l)
@@ -182,7 +184,7 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
         double sum = 0;
         const NodeId source = all[at].source;
         for (; at < all.size() && all[at].source == source; ++at) sum += all[at].weight;
-        if (has_direct_light(forest_, emitters_, emitters_.of_root(source), leaves[k]))
+        if (grid_.by_links(grid_.emitters().of_root(source), middle))
           r.links.push_back({source, static_cast<float>(sum)});
       }
       r.end.push_back(r.links.size());

@@ -8,19 +8,14 @@
 
 namespace hrad {
 
-// Whether an emitter's light comes to a leaf by links of its own: a matter of the leaf's middle,
-// for all of the leaf, so that rays and links count it once.
-bool has_direct_light(const Forest& forest, const Emitters& emitters, int32_t emitter, NodeId leaf);
+// What LightGrid decides by.
+OrientedPoint middle_of(const Forest& forest, NodeId leaf);
 
 class LeafLight {
  public:
   // All must outlive this.
-  LeafLight(State& state, const StageTools& tools, const Emitters& emitters, CornerSampler& corners)
-      : state_(state),
-        forest_(state.forest),
-        tools_(tools),
-        emitters_(emitters),
-        corners_(corners) {}
+  LeafLight(State& state, const StageTools& tools, LightGrid& grid, CornerSampler& corners)
+      : state_(state), forest_(state.forest), tools_(tools), grid_(grid), corners_(corners) {}
 
   // Gives the leaves made since the last time their points and means, and takes those of elements
   // that are no longer leaves. The corners of the leaves must be known. False: stopped.
@@ -37,7 +32,7 @@ class LeafLight {
   State& state_;
   Forest& forest_;
   const StageTools& tools_;
-  const Emitters& emitters_;
+  LightGrid& grid_;
   CornerSampler& corners_;
   NodeId named_ = 0;  // nodes before this one have been looked at
 };

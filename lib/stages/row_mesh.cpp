@@ -26,7 +26,7 @@ RowMesh::RowMesh(State& state, StageTools tools, const RowSettings& settings,
       sampler_(state.forest, tools_.engine, tools_.exposure, tools_.oracle.seed,
                tools_.oracle.near_ratio),
       corners_(state, tools_, light, grid, brightness, settings.seed),
-      leaves_(state, tools_, light.emitters(), corners_),
+      leaves_(state, tools_, grid, corners_),
       memory_(memory) {}
 
 bool RowMesh::build() {

@@ -21,8 +21,8 @@ constexpr int64_t rows_of_a_batch = 8192;
 class RowTracer {
  public:
   RowTracer(const State& state, const StageTools& tools, const RowSettings& settings,
-            const Emitters& emitters)
-      : state_(state), tools_(tools), settings_(settings), emitters_(emitters) {}
+            const LightGrid& grid)
+      : state_(state), tools_(tools), settings_(settings), grid_(grid) {}
 
   // The links of one element, sorted by source, from so many rays.
   void trace(NodeId id, int wanted, std::vector<Link>& links) {
@@ -50,13 +50,12 @@ class RowTracer {
       const NodeId source = forest.leaf_met(hit);
       if (source < 0) continue;
       // Light from there to this leaf has links of its own.
-      const int32_t emitter = emitters_.of_root(forest.nodes[source].surface);
+      const int32_t emitter = grid_.emitters().of_root(forest.nodes[source].surface);
       if (emitter >= 0) {
         double u, v;
         root_coordinates(node, x, y, &u, &v);
         const NodeId leaf = forest.leaf_at(node.surface, u, v);
-        if (state_.direct.of_leaf[leaf][0] >= 0 &&
-            has_direct_light(forest, emitters_, emitter, leaf))
+        if (state_.direct.of_leaf[leaf][0] >= 0 && grid_.by_links(emitter, middle_of(forest, leaf)))
           continue;
       }
       if (forest.nodes[source].exposed < 1 &&
@@ -79,14 +78,14 @@ class RowTracer {
   const State& state_;
   const StageTools& tools_;
   const RowSettings& settings_;
-  const Emitters& emitters_;
+  const LightGrid& grid_;
   std::vector<NodeId> hits_;
 };
 
 }  // namespace
 
 bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
-                const Emitters& emitters, const std::vector<NodeId>& cells,
+                const LightGrid& grid, const std::vector<NodeId>& cells,
                 const std::vector<int>& rays_of_cell, StageMemory& memory) {
   const Forest& forest = state.forest;
   const int64_t count = static_cast<int64_t>(cells.size());
@@ -99,7 +98,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     going_on = tools.team.for_each(
         tasks,
         [&](int64_t task, int) {
-          RowTracer tracer(state, tools, settings, emitters);
+          RowTracer tracer(state, tools, settings, grid);
           std::vector<Link> links;
           int64_t bytes = 0;
           const int64_t from = first + task * rows_of_a_task;

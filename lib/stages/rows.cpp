@@ -133,7 +133,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   std::vector<int> rays;
   for (int round = 0; !cells.empty(); ++round) {
     const double from = 0.3 + 0.3 * round / pilot_rounds;
-    if (!trace_rows(state, part_of(tools, from, from + 0.3 / pilot_rounds), pilot, emitters, cells,
+    if (!trace_rows(state, part_of(tools, from, from + 0.3 / pilot_rounds), pilot, grid, cells,
                     rays_by_area(state, pilot, cells), memory))
       return false;
     const Brightness seen = light_of_pilot_rows(state, tools.team);
@@ -142,7 +142,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
     if (!mesh.divide_cells(seen, cells)) return false;
     pull_exposure(state.forest);
   }
-  if (!trace_rows(state, part_of(tools, 0.6, 1), settings, emitters, state.cells, rays, memory))
+  if (!trace_rows(state, part_of(tools, 0.6, 1), settings, grid, state.cells, rays, memory))
     return false;
   mesh.drop_what_is_unnamed();
   reset_to_emission(state);

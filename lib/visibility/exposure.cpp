@@ -34,6 +34,11 @@ bool holds(const Box& box, Vec3 p) {
          p.z > box.low.z && p.z < box.high.z;
 }
 
+bool overlap(const Box& a, const Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
 bool same_corners(const Triangle& a, const Triangle& b) {
   const auto among = [&](Vec3 p) {
     for (Vec3 q : {b.a, b.b, b.c})
@@ -177,10 +182,19 @@ bool Exposure::can_be_sealed(int64_t patch, int32_t side) const {
   return first_cover_[k] < first_cover_[k + 1] || first_enclosing_[k] < first_enclosing_[k + 1];
 }
 
+Vec3 Exposure::normal_of(int64_t patch, int32_t side) const {
+  const Vec3 front = normalized(scene_.triangle(patch).area_vector());
+  return side ? -front : front;
+}
+
+bool Exposure::covered(int64_t cover, Vec3 point) const {
+  return holds(cover_boxes_[cover], point) && over(scene_.triangle(covers_[cover]), point);
+}
+
 bool Exposure::pressed(int64_t patch, int32_t side, Vec3 point) const {
   const int64_t k = 2 * patch + side;
   for (int64_t c = first_cover_[k]; c < first_cover_[k + 1]; ++c)
-    if (holds(cover_boxes_[c], point) && over(scene_.triangle(covers_[c]), point)) return true;
+    if (covered(c, point)) return true;
   return false;
 }
 
@@ -198,14 +212,11 @@ bool Exposure::overlaid(int64_t patch, int32_t side, Vec3 point) const {
 
 bool Exposure::inside_solid(int64_t patch, int32_t side, Vec3 point) const {
   const int64_t k = 2 * patch + side;
-  const Vec3 front = normalized(scene_.triangle(patch).area_vector());
-  const Vec3 normal = side ? -front : front;
+  const Vec3 normal = normal_of(patch, side);
   const Vec3 origin = point + normal * engine_.offset();
-  bool in_a_box = false;
-  for (int64_t c = first_enclosing_[k]; c < first_enclosing_[k + 1]; ++c) {
-    in_a_box = in_a_box || holds(solids_.box[enclosing_[c]], origin);
-  }
-  return in_a_box && enclosed(origin, normal);
+  for (int64_t c = first_enclosing_[k]; c < first_enclosing_[k + 1]; ++c)
+    if (holds(solids_.box[enclosing_[c]], origin)) return enclosed(origin, normal);
+  return false;
 }
 
 // The nearest surface shows its back, and it bounds a solid. Most of three rays, so that one that
@@ -223,6 +234,28 @@ bool Exposure::enclosed(Vec3 origin, Vec3 normal) const {
 
 bool Exposure::sealed(int64_t patch, int32_t side, Vec3 point) const {
   return pressed(patch, side, point) || inside_solid(patch, side, point);
+}
+
+Exposure::Part::Part(const Exposure& exposure, int64_t patch, int32_t side, const Triangle& corners)
+    : exposure_(exposure), normal_(exposure.normal_of(patch, side)) {
+  const int64_t k = 2 * patch + side;
+  const double offset = exposure.engine_.offset();
+  const Box on = box_of(corners), above = grown(on, offset);
+  for (int64_t c = exposure.first_cover_[k]; c < exposure.first_cover_[k + 1]; ++c)
+    if (overlap(exposure.cover_boxes_[c], on)) covers_.push_back(c);
+  for (int64_t c = exposure.first_enclosing_[k]; c < exposure.first_enclosing_[k + 1]; ++c) {
+    const Box& box = exposure.solids_.box[exposure.enclosing_[c]];
+    if (overlap(box, above)) solids_.push_back(box);
+  }
+}
+
+bool Exposure::Part::sealed(Vec3 point) const {
+  for (int64_t cover : covers_)
+    if (exposure_.covered(cover, point)) return true;
+  const Vec3 origin = point + normal_ * exposure_.engine_.offset();
+  for (const Box& box : solids_)
+    if (holds(box, origin)) return exposure_.enclosed(origin, normal_);
+  return false;
 }
 
 }  // namespace hrad

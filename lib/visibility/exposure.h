@@ -1,6 +1,6 @@
-// The exposure rule: which points of a patch are sealed, pressed against another surface or inside a
-// closed solid, so that no light gets in or out. A partly sealed element averages darkness into what
-// others see of it unless its exposed part is kept apart. Floor 4 (visibility).
+// The exposure rule: which points of a patch are sealed, pressed against another surface or inside
+// a closed solid, so that no light gets in or out. A partly sealed element averages darkness into
+// what others see of it unless its exposed part is kept apart. Floor 4 (visibility).
 #pragma once
 
 #include <cstdint>
@@ -25,18 +25,36 @@ class Exposure {
   // The point (in the scene's coordinates, on the patch) is sealed on this side. Any thread.
   bool sealed(int64_t patch, int32_t side, Vec3 point) const;
 
-  // A surface that faces the same way lies on this point, as a rug on a floor: what would arrive here
-  // arrives there. Any thread.
+  // What may seal points of one element of a side, for many questions about it. Any thread.
+  class Part {
+   public:
+    // corners: the element's.
+    Part(const Exposure& exposure, int64_t patch, int32_t side, const Triangle& corners);
+    bool can_be_sealed() const { return !covers_.empty() || !solids_.empty(); }
+    bool sealed(Vec3 point) const;
+
+   private:
+    const Exposure& exposure_;
+    Vec3 normal_;
+    std::vector<int64_t> covers_;  // numbers in Exposure::covers_
+    std::vector<Box> solids_;
+  };
+
+  // A surface that faces the same way lies on this point, as a rug on a floor: what would arrive
+  // here arrives there. Any thread.
   bool overlaid(int64_t patch, int32_t side, Vec3 point) const;
   // The back of something lies flat on this point: a ray that ends here met that black back. Any
   // thread.
   bool under_a_back(int64_t patch, int32_t side, Vec3 point) const {
-    return can_be_sealed(patch, side) && sealed(patch, side, point) && !overlaid(patch, side, point);
+    return can_be_sealed(patch, side) && sealed(patch, side, point) &&
+           !overlaid(patch, side, point);
   }
   // The same by contact alone, solids left aside.
   bool pressed(int64_t patch, int32_t side, Vec3 point) const;
 
  private:
+  Vec3 normal_of(int64_t patch, int32_t side) const;
+  bool covered(int64_t cover, Vec3 point) const;
   bool inside_solid(int64_t patch, int32_t side, Vec3 point) const;
   bool enclosed(Vec3 origin, Vec3 normal) const;
 

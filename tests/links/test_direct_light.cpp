@@ -61,7 +61,7 @@ double exact(const Scene& scene, Vec3 x, Vec3 normal) {
 const Vec3 up{0, 0, 1};
 
 void unoccluded_light_is_lamberts() {
-  for (double side : {1e-6, 0.01, 0.3, 2.0, 6.0}) {
+  for (double side : {1e-6, 0.01, 0.05, 0.15, 0.3, 2.0, 6.0}) {
     Lit lit(floor_and_lamp(side));
     CHECK_EQUAL(lit.emitters.all().size(), size_t{1});
     for (const Vec3& x : {Vec3{0.1, 0.2, 0}, Vec3{1, -0.7, 0}, Vec3{4.9, 4.8, 0}}) {
@@ -172,6 +172,29 @@ void pilot_rays_tell_what_is_hidden() {
   CHECK(!lit.grid.at(beside).front().hidden);
 }
 
+// What may come all the same from a weak lamp that no pilot ray met is left to the receiver's rays:
+// both by its cube alone and by all that lie around it.
+void what_is_hidden_and_weak_has_no_links() {
+  Scene scene = floor_and_lamp(0.3);
+  add_quad(scene, {-5, -5, 0.5}, {5, 0, 0}, {0, 10, 0});
+  const OrientedPoint under{{-2.5, 0.3, 0}, up}, beside{{2.5, 0.3, 0}, up};
+  const Lit any(scene);
+  const Emitter& lamp = any.emitters.all().front();
+  const double light =
+      lamp.brightness * lamp.brightness * Emitters::rough_factor(lamp, under.place, up);
+  Lit lit(scene, 1e-6, light / 4);
+  lit.grid.open({under, beside}, lit.bench.team);
+  CHECK(lit.emitters.bright(lamp, under.place, up));
+  CHECK(lit.grid.at(under).empty());
+  CHECK(!lit.grid.by_links(0, under));
+  CHECK_EQUAL(lit.grid.at(beside).size(), size_t{1});
+  CHECK(lit.grid.by_links(0, beside));
+  // Strong as it is, it keeps its links, and its few rays, where it is hidden.
+  Lit strong(scene, 1e-6, light / 100);
+  strong.grid.open({under, beside}, strong.bench.team);
+  CHECK(strong.grid.by_links(0, under));
+}
+
 }  // namespace
 
 int main() {
@@ -184,6 +207,7 @@ int main() {
       HRAD_TEST(faces_are_joined),
       HRAD_TEST(the_grid_misses_none),
       HRAD_TEST(pilot_rays_tell_what_is_hidden),
+      HRAD_TEST(what_is_hidden_and_weak_has_no_links),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/load.h"
 #include "support/check.h"
 #include "visibility/brute_force.h"
 #include "visibility/exposure.h"
@@ -220,6 +221,32 @@ void blockers_seal_what_they_press_on() {
   CHECK(!s.sealed_at({0.3, 1.6, 0}, up));
 }
 
+// What a part of a side says is what the whole side says.
+void parts_agree_with_the_whole() {
+  Scene scene;
+  make_builtin_scene(scene, "furnished-room");
+  const Setup s(std::move(scene));
+  Random random(74);
+  int sealed = 0, exposed = 0, clear = 0;
+  for (int64_t p = 0; p < s.scene.patch_count(); ++p) {
+    if (!s.exposure.can_be_sealed(p, 0)) continue;
+    const Triangle whole = s.scene.triangle(p);
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 a = point_on(whole, random), b = point_on(whole, random);
+      const Triangle element{a, b, point_on(whole, random)};
+      const Exposure::Part part(s.exposure, p, 0, element);
+      clear += !part.can_be_sealed();
+      for (int m = 0; m < 10; ++m) {
+        const Vec3 point = point_on(element, random);
+        const bool is = s.exposure.sealed(p, 0, point);
+        CHECK_EQUAL(part.sealed(point), is);
+        (is ? sealed : exposed) += 1;
+      }
+    }
+  }
+  CHECK(sealed > 100 && exposed > 100 && clear > 100);
+}
+
 }  // namespace
 
 int main() {
@@ -236,6 +263,7 @@ int main() {
       HRAD_TEST(two_sided_patches_are_sealed_by_side),
       HRAD_TEST(what_exchanges_nothing_is_never_asked),
       HRAD_TEST(blockers_seal_what_they_press_on),
+      HRAD_TEST(parts_agree_with_the_whole),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
