@@ -31,17 +31,15 @@ struct Piece {
 
 class Builder {
  public:
-  explicit Builder(Forest& forest) : forest_(forest), tree_(forest.clusters) {
-    const int32_t count = static_cast<int32_t>(forest.surface_count());
-    tree_.order.resize(count);
-    for (int32_t k = 0; k < count; ++k) {
-      tree_.order[k] = k;
-      const Triangle t = forest.root_triangle(k);
-      centroid_.push_back(t.centroid());
-      double square = 0;
-      for (const Vec3& p : {t.a, t.b, t.c})
-        square = std::max(square, dot(p - centroid_[k], p - centroid_[k]));
-      size_.push_back(std::sqrt(square));
+  Builder(Forest& forest, const std::vector<ClusterItem>& items)
+      : forest_(forest),
+        tree_(forest.clusters),
+        centroid_(static_cast<size_t>(forest.surface_count())),
+        size_(centroid_.size()) {
+    for (const ClusterItem& item : items) {
+      tree_.order.push_back(item.surface);
+      centroid_[item.surface] = item.place;
+      size_[item.surface] = item.size;
     }
   }
 
@@ -143,21 +141,33 @@ class Builder {
 
   Forest& forest_;
   ClusterTree& tree_;
-  std::vector<Vec3> centroid_;
-  std::vector<double> size_;  // radius around the centroid
+  std::vector<Vec3> centroid_;  // per surface
+  std::vector<double> size_;    // radius around the centroid
 };
 
 }  // namespace
 
 void add_clusters(Forest& forest) {
-  const int32_t surfaces = static_cast<int32_t>(forest.surface_count());
-  if (surfaces < 2) return;
-  for (int32_t c = 0; c < surfaces - 1; ++c) {
+  std::vector<ClusterItem> items;
+  for (int32_t k = 0; k < static_cast<int32_t>(forest.surface_count()); ++k) {
+    const Triangle t = forest.root_triangle(k);
+    const Vec3 centroid = t.centroid();
+    double square = 0;
+    for (const Vec3& p : {t.a, t.b, t.c})
+      square = std::max(square, dot(p - centroid, p - centroid));
+    items.push_back({k, centroid, std::sqrt(square)});
+  }
+  add_clusters(forest, items);
+}
+
+void add_clusters(Forest& forest, const std::vector<ClusterItem>& items) {
+  if (items.size() < 2) return;
+  for (int32_t c = 0; c < static_cast<int32_t>(items.size()) - 1; ++c) {
     Node node;
     node.surface = -1 - c;
     forest.nodes.push_back(node);
   }
-  Builder(forest).build();
+  Builder(forest, items).build();
   measure_clusters(forest);
 }
 

@@ -27,7 +27,8 @@ struct Cluster {
   bool linkable() const { return cone <= widest_cone; }
 };
 
-// Parents before children; cluster c is node surface_count() + c of the forest.
+// Parents before children; cluster c is node surface_count() + c of the forest. Over all surfaces,
+// or over some (linking=rows: the lamps).
 struct ClusterTree {
   std::vector<Cluster> clusters;
   std::vector<int32_t> order;       // surfaces, those of every cluster side by side
@@ -40,6 +41,16 @@ class Forest;
 // Makes the tree over all surfaces and its nodes; the forest has no elements yet. Depends on the
 // scene alone.
 void add_clusters(Forest& forest);
+
+// What a tree is built of: surfaces of one place and size stay together the longest.
+struct ClusterItem {
+  int32_t surface;
+  Vec3 place;
+  double size;
+};
+
+// The same over some of the surfaces.
+void add_clusters(Forest& forest, const std::vector<ClusterItem>& items);
 
 // Areas from the roots' present exposed shares.
 void measure_clusters(Forest& forest);

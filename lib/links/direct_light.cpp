@@ -51,9 +51,11 @@ struct DirectLight::Batch {
   struct Part {
     const Emitter* emitter;
     int first, rays;
+    double factor;  // of a group: without occlusion
   };
   SegmentPacket packet;
   double weight[16];
+  std::vector<double> up_to;  // of a group: the sum of form factors up to each member
   Part parts[16];
   int part_count = 0, used = 0;
   int64_t rays = 0;
@@ -74,7 +76,10 @@ int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
     const uint64_t own_key = mix(key, static_cast<uint64_t>(e.surfaces.front()));
     if (length(e.center - point.place) > near_radii * e.radius) {
       if (batch.used + wanted > 16) finish(point, batch, links);
-      add(e, wanted, own_key, point, batch);
+      if (e.members.empty())
+        add(e, wanted, own_key, point, batch);
+      else
+        add_group(e, wanted, own_key, point, batch);
     } else {
       for (NodeId root : e.surfaces)
         rays += sample_near(root, point, mix(own_key, static_cast<uint64_t>(root)), links);
@@ -88,8 +93,8 @@ int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
 int DirectLight::rays_wanted(const Emitter& e, bool hidden, Vec3 x, Vec3 normal) const {
   const double factor = Emitters::rough_factor(e, x, normal);
   if (!emitters_.is_sampled(e, factor)) return 0;
-  // Partly below the horizon, few points may miss all of it.
-  if (dot(e.center - x, normal) < e.radius) return 16;
+  // Partly below the horizon, few points may miss all of it. Those of a group never do.
+  if (e.members.empty() && dot(e.center - x, normal) < e.radius) return 16;
   const double light = e.brightness * factor;
   const double variance = hidden ? variance_if_hidden : variance_at_most;
   const double wanted = light * light * variance / (noise_ * noise_);
@@ -100,7 +105,7 @@ void DirectLight::add(const Emitter& e, int rays, uint64_t key, const OrientedPo
                       Batch& batch) const {
   const Vec3 from = point.place + point.normal * engine_.offset() - engine_.center();
   const Vec3 to_packet = e.normal * engine_.offset() - engine_.center();
-  batch.parts[batch.part_count++] = {&e, batch.used, rays};
+  batch.parts[batch.part_count++] = {&e, batch.used, rays, 0};
   // All sixteen points, or some of them that are spread evenly, other ones for every receiver.
   const size_t turn = rays == 16 ? 0 : key % 16;
   for (int k = 0; k < rays; ++k, ++batch.used) {
@@ -109,6 +114,35 @@ void DirectLight::add(const Emitter& e, int rays, uint64_t key, const OrientedPo
     batch.packet.set(batch.used, from, y + to_packet);
     if (batch.weight[batch.used] > 0) batch.packet.active |= 1u << batch.used;
   }
+}
+
+// Rays in proportion to what the members would bring without occlusion, so that the visible share
+// needs no weights: some may be much nearer than others.
+void DirectLight::add_group(const Emitter& group, int rays, uint64_t key,
+                            const OrientedPoint& point, Batch& batch) const {
+  double all = 0;
+  batch.up_to.clear();
+  for (int32_t member : group.members) {
+    const Emitter& e = emitters_.all()[member];
+    all += kernel(point.place, point.normal, e.center, e.normal) * e.area / pi;
+    batch.up_to.push_back(all);
+  }
+  if (!(all > 0)) return;
+  const Vec3 from = point.place + point.normal * engine_.offset() - engine_.center();
+  const double start = unit_interval(mix(key, 0x67726f7570u));
+  const int first = batch.used;
+  size_t turn = key % 16;
+  for (size_t m = 0; m < group.members.size(); ++m) {
+    const Emitter& e = emitters_.all()[group.members[m]];
+    for (; batch.used - first < rays && (start + batch.used - first) / rays * all < batch.up_to[m];
+         ++batch.used, ++turn) {
+      batch.weight[batch.used] = 1;
+      batch.packet.set(batch.used, from,
+                       e.point[turn % 16] + e.normal * engine_.offset() - engine_.center());
+      batch.packet.active |= 1u << batch.used;
+    }
+  }
+  batch.parts[batch.part_count++] = {&group, first, batch.used - first, all};
 }
 
 void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<Link>& links) const {
@@ -130,6 +164,10 @@ void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<L
     const Vec3 way = e.center - point.place;
     const double radii = length(way) / e.radius;
     const bool above_horizon = dot(way, point.normal) > e.radius;
+    if (part.factor > 0) {
+      links.push_back({e.cluster, static_cast<float>(part.factor * share)});
+      continue;
+    }
     for (NodeId root : e.surfaces) {
       const double factor = factor_from(point.place, point.normal, forest_.root_triangle(root),
                                         e.normal, radii, above_horizon);

@@ -21,9 +21,9 @@ class DirectLight {
   DirectLight(const Forest& forest, const VisibilityEngine& engine, const Emitters& emitters,
               const LightGrid& grid, double noise);
 
-  // Appends one link per visible surface of every emitter that is worth sampling there,
-  // weight = form factor times visible fraction. The point lies on a surface, not lifted. Any
-  // thread. Returns the number of rays.
+  // Appends one link per visible surface of every emitter that is worth sampling there, or one for
+  // a group, weight = form factor times visible fraction. The point lies on a surface, not lifted.
+  // Any thread. Returns the number of rays.
   int64_t sample(const OrientedPoint& point, uint64_t key, std::vector<Link>& links) const;
 
  private:
@@ -31,6 +31,8 @@ class DirectLight {
   int rays_wanted(const Emitter& emitter, bool hidden, Vec3 x, Vec3 normal) const;
   void add(const Emitter& emitter, int rays, uint64_t key, const OrientedPoint& point,
            Batch& batch) const;
+  void add_group(const Emitter& group, int rays, uint64_t key, const OrientedPoint& point,
+                 Batch& batch) const;
   void finish(const OrientedPoint& point, Batch& batch, std::vector<Link>& links) const;
   int64_t sample_near(NodeId root, const OrientedPoint& point, uint64_t key,
                       std::vector<Link>& links) const;

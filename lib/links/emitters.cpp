@@ -13,6 +13,11 @@ namespace hrad {
 namespace {
 
 constexpr size_t most_surfaces_of_an_emitter = 8;
+// Fewer emitters than that are looked at one by one.
+constexpr size_t worth_joining = 16;
+// Widest angle between the normals in a group and their mean, rad: its light falls off by one
+// cosine.
+constexpr double widest_group = 0.1;
 
 bool shine_alike(const Scene& scene, const Surface& a, const Surface& b) {
   for (int k = 0; k < scene.bands; ++k)
@@ -62,7 +67,7 @@ void finish(const Forest& forest, Emitter& e) {
 }  // namespace
 
 Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, double least_bright)
-    : of_root_(static_cast<size_t>(forest.surface_count()), -1), least_bright_(least_bright) {
+    : of_node_(static_cast<size_t>(forest.surface_count()), -1), least_bright_(least_bright) {
   const Scene& scene = *forest.scene;
   for (NodeId root = 0; root < forest.surface_count(); ++root) {
     const Surface& surface = forest.surfaces[root];
@@ -79,31 +84,104 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
           share_plane(surface, other) && shine_alike(scene, surface, other) &&
           share_an_edge(forest.root_triangle(root), forest.root_triangle(last.surfaces.back()))) {
         last.surfaces.push_back(root);
-        of_root_[root] = static_cast<int32_t>(emitters_.size()) - 1;
+        of_node_[root] = static_cast<int32_t>(emitters_.size()) - 1;
         continue;
       }
     }
-    of_root_[root] = static_cast<int32_t>(emitters_.size());
+    of_node_[root] = static_cast<int32_t>(emitters_.size());
     emitters_.emplace_back();
     emitters_.back().normal = surface.normal;
     emitters_.back().brightness = excess;
     emitters_.back().surfaces.push_back(root);
   }
   for (Emitter& e : emitters_) finish(forest, e);
+  parts_.resize(emitters_.size());
+  for (size_t e = 0; e < emitters_.size(); ++e) tops_.push_back(static_cast<int32_t>(e));
 }
 
-bool Emitters::can_be_sampled(const Emitter& e, Vec3 center, double radius, double share) const {
+void Emitters::join(Forest& forest) {
+  if (emitters_.size() < worth_joining || !forest.clusters.empty()) return;
+  std::vector<ClusterItem> items;
+  for (const Emitter& e : emitters_)
+    for (NodeId root : e.surfaces) items.push_back({root, e.center, e.radius});
+  add_clusters(forest, items);
+  of_node_.resize(forest.nodes.size(), -1);
+  tops_.clear();
+  const size_t singles = emitters_.size();
+  find_groups(forest, forest.top(), -1);
+  for (size_t e = 0; e < emitters_.size(); ++e) {
+    const int32_t number = static_cast<int32_t>(e), group = emitters_[e].group;
+    if (group < 0)
+      tops_.push_back(number);
+    else
+      parts_[group].push_back(number);
+    if (e >= singles) of_node_[emitters_[e].cluster] = number;
+  }
+}
+
+// The numbers of the emitters that a cluster is made of, none where they don't make a group.
+std::vector<int32_t> Emitters::members_of(const Forest& forest, const Cluster& cluster) const {
+  if (cluster.cone > widest_group) return {};
+  const int32_t* const first = &forest.clusters.order[cluster.first];
+  std::vector<int32_t> members;
+  for (const int32_t* root = first; root < first + cluster.count; ++root)
+    members.push_back(of_node_[*root]);
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+  size_t surfaces = 0;
+  for (int32_t member : members) {
+    const Emitter& e = emitters_[member];
+    surfaces += e.surfaces.size();
+    if (e.brightness != emitters_[members.front()].brightness ||
+        !shine_alike(*forest.scene, forest.surfaces[e.surfaces.front()], forest.surfaces[*first]))
+      return {};
+  }
+  // Whole emitters only.
+  const bool whole = surfaces == static_cast<size_t>(cluster.count);
+  return whole && members.size() > 1 ? members : std::vector<int32_t>();
+}
+
+// Groups at or below a node, within the group `around`. Trees of clusters are flat enough.
+void Emitters::find_groups(const Forest& forest, NodeId id, int32_t around) {
+  if (!Forest::is_cluster(forest.nodes[id])) return;
+  const Cluster& cluster = forest.cluster(forest.nodes[id]);
+  const std::vector<int32_t> members = members_of(forest, cluster);
+  if (!members.empty()) {
+    const int32_t number = static_cast<int32_t>(emitters_.size());
+    Emitter group;
+    group.normal = cluster.normal;
+    group.brightness = emitters_[members.front()].brightness;
+    group.cluster = id;
+    group.members = members;
+    group.group = around;
+    for (int32_t member : members) {
+      emitters_[member].group = number;
+      const std::vector<NodeId>& surfaces = emitters_[member].surfaces;
+      group.surfaces.insert(group.surfaces.end(), surfaces.begin(), surfaces.end());
+    }
+    finish(forest, group);
+    for (int32_t member : members)
+      group.thickness = std::max(
+          group.thickness, std::fabs(dot(emitters_[member].center - group.center, group.normal)) +
+                               widest_group * emitters_[member].radius);
+    emitters_.push_back(std::move(group));
+    parts_.emplace_back();
+    around = number;
+  }
+  for (NodeId child : cluster.child) find_groups(forest, child, around);
+}
+
+double Emitters::largest_factor(const Emitter& e, Vec3 center, double radius) {
   const Vec3 d = e.center - center;
-  const double above = radius - dot(d, e.normal);
-  if (!(above > 0)) return false;
+  const double above = radius + e.thickness - dot(d, e.normal);
+  if (!(above > 0)) return 0;
   const double distance = std::max(length(d) - radius, e.radius);
-  return is_sampled(e, share * std::min(1.0, e.area * std::min(1.0, above / distance) /
-                                                 (pi * distance * distance)));
+  return std::min(1.0, e.area * std::min(1.0, above / distance) / (pi * distance * distance));
 }
 
 double Emitters::rough_factor(const Emitter& e, Vec3 x, Vec3 normal) {
   const Vec3 d = e.center - x;
-  const double above = -dot(d, e.normal);
+  const double above = e.thickness - dot(d, e.normal);
   if (!(above > 0)) return 0;
   const double ahead = dot(d, normal) + e.radius;
   if (!(ahead > 0)) return 0;

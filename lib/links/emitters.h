@@ -1,5 +1,6 @@
 // The bright emitters, those whose light comes through links of its own rather than by chance:
-// joined where they lie in one plane, side by side, with the same emission. Floor 6 (links).
+// joined where they lie in one plane, side by side, with the same emission; and groups of such, one
+// emitter seen from afar. Floor 6 (links).
 #pragma once
 
 #include <cstdint>
@@ -9,14 +10,19 @@
 
 namespace hrad {
 
-// Emitting surfaces of one plane that shine alike.
+// Emitting surfaces that shine alike: of one plane, or a group of such emitters.
 struct Emitter {
   Vec3 center, normal;
   double radius = 0, area = 0;
+  double thickness = 0;   // how far from the plane through the center a group reaches
   double brightness = 0;  // radiosity over the scene's mean, in units of the mean irradiance
   std::vector<NodeId> surfaces;
   // Sixteen points spread over it by area.
   Vec3 point[16];
+  // Of a group: its cluster, the source of its links, and the numbers of the emitters in it.
+  NodeId cluster = -1;
+  std::vector<int32_t> members;
+  int32_t group = -1;  // the number of the smallest group that it is in
 };
 
 class Emitters {
@@ -26,9 +32,18 @@ class Emitters {
   // be bright where it is seen so large.
   Emitters(const Forest& forest, const std::vector<float>& brightness, double least_bright);
 
+  // Where there are many, makes groups of those that face the same way and shine alike, and gives
+  // the forest, of roots alone so far, a tree of clusters over the emitting surfaces.
+  void join(Forest& forest);
+
+  // The single ones, then the groups, larger ones before those within.
   const std::vector<Emitter>& all() const { return emitters_; }
-  // Number of the emitter that a root belongs to, -1: it is none.
-  int32_t of_root(NodeId root) const { return of_root_[root]; }
+  // Those in no group.
+  const std::vector<int32_t>& tops() const { return tops_; }
+  // Of a group: the smaller ones and the single emitters that it falls into; of others none.
+  const std::vector<int32_t>& parts_of(int32_t group) const { return parts_[group]; }
+  // Number of the emitter that a root belongs to, or of the group of a cluster; -1: it is none.
+  int32_t of_node(NodeId id) const { return of_node_[id]; }
   // About the emitter's form factor at x on a surface of this normal, 0 behind a horizon: a matter
   // of geometry alone, whether it is seen or not.
   static double rough_factor(const Emitter& emitter, Vec3 x, Vec3 normal);
@@ -43,14 +58,19 @@ class Emitters {
   bool is_sampled(const Emitter& emitter, double factor) const {
     return is_bright(emitter, factor * sampling_margin);
   }
-  // False: at no point of this ball is the emitter sampled, if but `share` of it is visible.
-  bool can_be_sampled(const Emitter& emitter, Vec3 center, double radius, double share = 1) const;
+  // What rough_factor may be at the most at a point of this ball.
+  static double largest_factor(const Emitter& emitter, Vec3 center, double radius);
 
  private:
   static constexpr double sampling_margin = 2;
 
+  std::vector<int32_t> members_of(const Forest& forest, const Cluster& cluster) const;
+  void find_groups(const Forest& forest, NodeId id, int32_t around);
+
   std::vector<Emitter> emitters_;
-  std::vector<int32_t> of_root_;
+  std::vector<std::vector<int32_t>> parts_;  // per emitter
+  std::vector<int32_t> tops_;
+  std::vector<int32_t> of_node_;  // of roots and clusters
   double least_bright_;
 };
 

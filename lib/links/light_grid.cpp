@@ -11,13 +11,26 @@ namespace {
 
 constexpr double coarse_cubes = 4;  // times as large as fine ones
 constexpr int coarse_packets = 8, fine_packets = 2;
+// A group farther than so many of its radii is one emitter.
+constexpr double group_radii = 2.5;
 constexpr int32_t none = -1;
+
+const LightGrid::Candidate* find(const std::vector<LightGrid::Candidate>& candidates,
+                                 int32_t emitter) {
+  const auto found = std::lower_bound(candidates.begin(), candidates.end(), emitter,
+                                      [](const LightGrid::Candidate& candidate, int32_t number) {
+                                        return candidate.emitter < number;
+                                      });
+  return found != candidates.end() && found->emitter == emitter ? &*found : nullptr;
+}
 
 }  // namespace
 
-LightGrid::LightGrid(const Emitters& emitters, const VisibilityEngine& engine, double size)
+LightGrid::LightGrid(const Emitters& emitters, const VisibilityEngine& engine, double size,
+                     double most_of_a_group)
     : emitters_(emitters),
       engine_(engine),
+      most_of_a_group_(most_of_a_group),
       coarse_{coarse_cubes * size, coarse_packets, {}, {}},
       fine_{size, fine_packets, {}, {}} {}
 
@@ -26,12 +39,12 @@ const std::vector<LightGrid::Candidate>& LightGrid::at(const OrientedPoint& poin
 }
 
 bool LightGrid::by_links(int32_t emitter, const OrientedPoint& middle) const {
-  if (!emitters_.bright(emitters_.all()[emitter], middle.place, middle.normal)) return false;
   const std::vector<Candidate>& candidates = at(middle);
-  const auto found = std::lower_bound(
-      candidates.begin(), candidates.end(), emitter,
-      [](const Candidate& candidate, int32_t number) { return candidate.emitter < number; });
-  return found != candidates.end() && found->emitter == emitter;
+  const std::vector<Emitter>& all = emitters_.all();
+  for (int32_t k = emitter; k >= 0; k = all[k].group)
+    if (find(candidates, k)) return emitters_.bright(all[k], middle.place, middle.normal);
+  // A group of which a neighbouring cube sees the parts: one of them speaks for all.
+  return !all[emitter].members.empty() && by_links(all[emitter].members.front(), middle);
 }
 
 Vec3 LightGrid::corner_of(const Grid& grid, Vec3 place) const {
@@ -62,12 +75,30 @@ size_t LightGrid::add_cubes(Grid& grid, const std::vector<OrientedPoint>& points
   return before;
 }
 
+// Points for the pilot rays of a coarse cube, as many from each of its fine ones, so that none is
+// judged by what lies about it alone.
+std::vector<int32_t> LightGrid::spread_over(const std::vector<int32_t>& fine) const {
+  constexpr size_t wanted = 16 * coarse_packets;
+  std::vector<int32_t> result;
+  for (size_t c = 0; c < fine.size(); ++c) {
+    const std::vector<int32_t>& points = fine_.cubes[fine[c]].points;
+    const size_t share = (c + 1) * wanted / fine.size() - c * wanted / fine.size();
+    for (size_t k = 0; k < share; ++k) result.push_back(points[k * points.size() / share]);
+  }
+  return result;
+}
+
 int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team) {
   const size_t first_coarse = add_cubes(coarse_, points), first_fine = add_cubes(fine_, points);
+  std::vector<std::vector<int32_t>> within(coarse_.cubes.size() - first_coarse);
   for (size_t k = first_fine; k < fine_.cubes.size(); ++k) {
     Cube& cube = fine_.cubes[k];
     cube.around = coarse_.number.at(key_of(coarse_, points[cube.points.front()]));
+    const size_t coarse = static_cast<size_t>(cube.around);
+    if (coarse >= first_coarse) within[coarse - first_coarse].push_back(static_cast<int32_t>(k));
   }
+  for (size_t k = 0; k < within.size(); ++k)
+    coarse_.cubes[first_coarse + k].points = spread_over(within[k]);
   int64_t all = 0;
   for (Grid* grid : {&coarse_, &fine_}) {
     const size_t first = grid == &coarse_ ? first_coarse : first_fine;
@@ -80,27 +111,52 @@ int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& te
   return all;
 }
 
+// What a coarse cube knows of an emitter, or of the groups around it or the parts within.
+LightGrid::Seen LightGrid::seen_from(const Cube& cube, int32_t emitter) const {
+  for (int32_t k = emitter; k >= 0; k = emitters_.all()[k].group)
+    if (const Candidate* candidate = find(cube.candidates, k))
+      return candidate->hidden ? Seen::hidden : Seen::some;
+  Seen most = Seen::none;
+  for (int32_t part : emitters_.parts_of(emitter)) {
+    const Seen seen = seen_from(cube, part);
+    if (seen == Seen::some) return seen;
+    if (seen == Seen::hidden) most = seen;
+  }
+  return most;
+}
+
 int64_t LightGrid::find_emitters(const std::vector<OrientedPoint>& points, const Grid& grid,
                                  Cube& cube) const {
   int64_t rays = 0;
   const Vec3 corner = corner_of(grid, points[cube.points.front()].place);
   const Vec3 center = engine_.center() + (corner + Vec3{0.5, 0.5, 0.5}) * grid.size;
   const double radius = 0.87 * grid.size;  // half the diagonal
-  const auto look_at = [&](int32_t number, bool hidden_around) {
+  std::vector<int32_t> stack = emitters_.tops();
+  while (!stack.empty()) {
+    const int32_t number = stack.back();
+    stack.pop_back();
     const Emitter& emitter = emitters_.all()[number];
-    if (!emitters_.can_be_sampled(emitter, center, radius)) return;
-    const int packets = hidden_around ? coarse_packets : grid.pilot_packets;
-    const bool is_hidden = hidden_around || hidden(emitter, points, cube, packets, rays);
-    // As much of it may be visible.
-    if (is_hidden && !emitters_.can_be_sampled(emitter, center, radius, 1.0 / (16 * packets)))
-      return;
+    const double factor = Emitters::largest_factor(emitter, center, radius);
+    if (!emitters_.is_sampled(emitter, factor)) continue;
+    const std::vector<int32_t>& parts = emitters_.parts_of(number);
+    if (!parts.empty() &&
+        (emitter.brightness * factor > most_of_a_group_ ||
+         length(emitter.center - center) < group_radii * emitter.radius + radius)) {
+      stack.insert(stack.end(), parts.begin(), parts.end());
+      continue;
+    }
+    const Seen around =
+        cube.around == none ? Seen::some : seen_from(coarse_.cubes[cube.around], number);
+    if (around == Seen::none) continue;
+    const int packets = around == Seen::hidden ? coarse_packets : grid.pilot_packets;
+    const bool is_hidden = around == Seen::hidden || hidden(emitter, points, cube, packets, rays);
+    // So much of it may be visible all the same.
+    const double share = 1.0 / (16 * packets);
+    if (is_hidden && !emitters_.is_sampled(emitter, factor * share)) continue;
     cube.candidates.push_back({number, is_hidden});
-  };
-  if (cube.around == none)
-    for (size_t e = 0; e < emitters_.all().size(); ++e) look_at(static_cast<int32_t>(e), false);
-  else
-    for (const Candidate& candidate : coarse_.cubes[cube.around].candidates)
-      look_at(candidate.emitter, candidate.hidden);
+  }
+  std::sort(cube.candidates.begin(), cube.candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.emitter < b.emitter; });
   cube.points = std::vector<int32_t>();
   return rays;
 }

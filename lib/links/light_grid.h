@@ -20,13 +20,16 @@ struct OrientedPoint {
 
 class LightGrid {
  public:
-  // size: of the cubes. All must outlive this.
-  LightGrid(const Emitters& emitters, const VisibilityEngine& engine, double size);
+  // size: of the cubes. most_of_a_group: the light, in units of the mean irradiance, of which
+  // sixteen rays tell well enough how much is visible: where a group may bring more it is looked at
+  // part by part. All must outlive this.
+  LightGrid(const Emitters& emitters, const VisibilityEngine& engine, double size,
+            double most_of_a_group);
 
   const Emitters& emitters() const { return emitters_; }
 
-  // Opens the cubes that these points lie in; their pilot rays start at the points. Returns the
-  // number of rays.
+  // Opens the cubes that these points lie in, if they aren't yet; their pilot rays start at the
+  // points, which should be of all surfaces there. Returns the number of rays.
   int64_t open(const std::vector<OrientedPoint>& points, ThreadTeam& team);
 
   struct Candidate {
@@ -37,6 +40,7 @@ class LightGrid {
   const std::vector<Candidate>& at(const OrientedPoint& point) const;
   // Whether all that comes from an emitter to an element comes by links of their own, so that rays
   // and links count it once: a matter of the element's middle, which must lie in an open cube.
+  // Of a group, the same for all of it.
   bool by_links(int32_t emitter, const OrientedPoint& middle) const;
 
  private:
@@ -51,9 +55,12 @@ class LightGrid {
     std::unordered_map<uint64_t, int32_t> number;  // looked up only
     std::vector<Cube> cubes;
   };
+  enum class Seen { none, hidden, some };
   Vec3 corner_of(const Grid& grid, Vec3 place) const;  // in whole cubes from the scene's middle
   uint64_t key_of(const Grid& grid, const OrientedPoint& point) const;
   size_t add_cubes(Grid& grid, const std::vector<OrientedPoint>& points) const;
+  std::vector<int32_t> spread_over(const std::vector<int32_t>& fine) const;
+  Seen seen_from(const Cube& cube, int32_t emitter) const;
   int64_t find_emitters(const std::vector<OrientedPoint>& points, const Grid& grid,
                         Cube& cube) const;
   bool hidden(const Emitter& emitter, const std::vector<OrientedPoint>& points, const Cube& cube,
@@ -61,6 +68,7 @@ class LightGrid {
 
   const Emitters& emitters_;
   const VisibilityEngine& engine_;
+  const double most_of_a_group_;
   // Coarse cubes first say what can be seen from anywhere near: what is hidden from all of one
   // needs no pilot rays from each of the fine ones in it.
   Grid coarse_, fine_;

@@ -191,8 +191,8 @@ float LinkSampler::exposed_share(const Node& place) const {
   const Exposure::Part part(exposure_, surface.patch, surface.side, corners);
   if (!part.can_be_sealed()) return 1;
   const uint64_t key = key_of(forest_, place);
-  // Few sets tell most elements that are sealed not at all or all over; the borders take more. A
-  // strip that all sets miss is lost, so that larger elements take more too.
+  // Few sets tell most elements that are sealed not at all or all over; the borders take more, and
+  // larger elements too.
   constexpr int most_sets = 16;
   const int least_sets = std::max(2, most_sets >> ((place.level + 1) / 2));
   int exposed = 0, sets = 0;
@@ -205,7 +205,11 @@ float LinkSampler::exposed_share(const Node& place) const {
     }
     if (sets >= least_sets && (exposed == 0 || exposed == sets * lanes_per_packet)) break;
   }
-  return static_cast<float>(exposed) / static_cast<float>(sets * lanes_per_packet);
+  const int points = sets * lanes_per_packet;
+  // What is pressed against small things may lie between all points.
+  if (exposed == points)
+    return static_cast<float>(1 - std::min(part.pressed_share(), 1.0 / points));
+  return static_cast<float>(exposed) / static_cast<float>(points);
 }
 
 }  // namespace hrad

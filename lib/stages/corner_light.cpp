@@ -244,7 +244,7 @@ void CornerSampler::drop_what_is_unnamed() {
                               state_.forest.surfaces[place_[k].surface].normal};
     direct.first[kept] = static_cast<uint32_t>(links);
     for (uint32_t l = begin; l < end; ++l) {
-      const Emitter& emitter = emitters.all()[emitters.of_root(direct.links[l].source)];
+      const Emitter& emitter = emitters.all()[emitters.of_node(direct.links[l].source)];
       if (emitters.bright(emitter, point.place, point.normal))
         direct.links[links++] = direct.links[l];
     }

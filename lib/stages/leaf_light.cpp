@@ -53,7 +53,8 @@ bool LeafLight::name() {
   state_.direct.mean.resize(forest_.nodes.size());
   std::vector<NodeId> leaves, partly_sealed;
   for (NodeId id = named_; id < end; ++id) {
-    if (!forest_.is_leaf(id) || !(forest_.nodes[id].exposed > 0)) continue;
+    const Node& node = forest_.nodes[id];
+    if (Forest::is_cluster(node) || !forest_.is_leaf(id) || !(node.exposed > 0)) continue;
     leaves.push_back(id);
     if (!take_corners(id)) partly_sealed.push_back(id);
   }
@@ -184,7 +185,7 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
         double sum = 0;
         const NodeId source = all[at].source;
         for (; at < all.size() && all[at].source == source; ++at) sum += all[at].weight;
-        if (grid_.by_links(grid_.emitters().of_root(source), middle))
+        if (grid_.by_links(grid_.emitters().of_node(source), middle))
           r.links.push_back({source, static_cast<float>(sum)});
       }
       r.end.push_back(r.links.size());

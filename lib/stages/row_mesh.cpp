@@ -25,6 +25,7 @@ RowMesh::RowMesh(State& state, StageTools tools, const RowSettings& settings,
       settings_(settings),
       sampler_(state.forest, tools_.engine, tools_.exposure, tools_.oracle.seed,
                tools_.oracle.near_ratio),
+      grid_(grid),
       corners_(state, tools_, light, grid, brightness, settings.seed),
       leaves_(state, tools_, grid, corners_),
       memory_(memory) {}
@@ -34,6 +35,7 @@ bool RowMesh::build() {
   std::vector<NodeId> open;
   for (NodeId id : state_.cells)
     if (forest_.nodes[id].exposed > 0) open.push_back(id);
+  open_grid(open);
   if (!keep_small_patches(open)) return false;
   for (NodeId id : open) want_corners(id);
   return sample_corners() && refine(std::move(open)) && name_leaves();
@@ -50,6 +52,19 @@ NodeId RowMesh::add_children(NodeId parent) {
   }
   forest_.nodes[parent].first_child = first;
   return first;
+}
+
+// By points from all over the scene, before the first that are sampled, whose places are special.
+void RowMesh::open_grid(const std::vector<NodeId>& cells) {
+  std::vector<OrientedPoint> points;
+  for (NodeId id : cells) {
+    const Triangle t = forest_.triangle(forest_.nodes[id]);
+    const Vec3 middle = t.centroid();
+    for (const Vec3& corner : {t.a, t.b, t.c})
+      points.push_back(
+          {(corner + middle) * 0.5, forest_.surfaces[forest_.nodes[id].surface].normal});
+  }
+  state_.rays += grid_.open(points, tools_.team);
 }
 
 bool RowMesh::sample_corners() {
@@ -71,6 +86,7 @@ void RowMesh::make_cells() {
     const NodeId end = static_cast<NodeId>(forest_.nodes.size());
     for (NodeId id = from; id < end; ++id) {
       const Node& node = forest_.nodes[id];
+      if (Forest::is_cluster(node)) continue;
       if (forest_.area(node) > settings_.cell_area && node.level < max_level)
         add_children(id);
       else

@@ -31,6 +31,7 @@ class RowMesh {
  private:
   NodeId add_children(NodeId parent);
   void measure_exposure(NodeId from);
+  void open_grid(const std::vector<NodeId>& cells);
   bool sample_corners();
   void make_cells();
   bool keep_small_patches(std::vector<NodeId>& open);
@@ -49,6 +50,7 @@ class RowMesh {
   const StageTools tools_;
   const RowSettings settings_;
   const LinkSampler sampler_;
+  LightGrid& grid_;
   CornerSampler corners_;
   LeafLight leaves_;
   StageMemory& memory_;

@@ -50,7 +50,7 @@ class RowTracer {
       const NodeId source = forest.leaf_met(hit);
       if (source < 0) continue;
       // Light from there to this leaf has links of its own.
-      const int32_t emitter = grid_.emitters().of_root(forest.nodes[source].surface);
+      const int32_t emitter = grid_.emitters().of_node(forest.nodes[source].surface);
       if (emitter >= 0) {
         double u, v;
         root_coordinates(node, x, y, &u, &v);

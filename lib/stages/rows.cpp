@@ -112,12 +112,17 @@ std::vector<int> rays_by_variance(const State& state, const RowSettings& setting
   return rays;
 }
 
+// Sixteen rays err by an eighth at the most.
+constexpr double most_of_a_group = 8;
+
 }  // namespace
 
 bool link_rows(State& state, const StageTools& tools, const RowSettings& settings) {
+  Emitters emitters(state.forest, expected_brightness(state).of_node, settings.least_bright);
+  emitters.join(state.forest);
   const Brightness expected = expected_brightness(state);
-  const Emitters emitters(state.forest, expected.of_node, settings.least_bright);
-  LightGrid grid(emitters, tools.engine, settings.grid_size);
+  LightGrid grid(emitters, tools.engine, settings.grid_size,
+                 most_of_a_group * settings.shadow_noise);
   const DirectLight light(state.forest, tools.engine, emitters, grid, settings.shadow_noise);
   StageMemory memory(state);
   RowMesh mesh(state, part_of(tools, 0, 0.3), settings, light, grid, expected, memory);

@@ -67,6 +67,33 @@ bool overlap(const Triangle& s, const Triangle& t, Vec3 normal, double margin) {
   return !separated_by_edge_of(s, t) && !separated_by_edge_of(t, s);
 }
 
+// Area of what two triangles of about one plane have in common: s, cut by the edges of t
+// (Sutherland, Hodgman, "Reentrant polygon clipping", CACM 1974).
+double common_area(const Triangle& s, const Triangle& t, Vec3 normal) {
+  // Three edges make six corners of three; rounding may make a few more.
+  Vec3 polygon[24] = {s.a, s.b, s.c}, cut[24];
+  int count = 3;
+  const Vec3 corners[3] = {t.a, t.b, t.c};
+  const double way = dot(t.area_vector(), normal) > 0 ? 1 : -1;
+  for (int edge = 0; edge < 3 && count > 0; ++edge) {
+    const Vec3 from = corners[edge];
+    const Vec3 inward = cross(normal, corners[(edge + 1) % 3] - from) * way;
+    int kept = 0;
+    for (int k = 0; k < count; ++k) {
+      const Vec3 p = polygon[k], q = polygon[(k + 1) % count];
+      const double at_p = dot(p - from, inward), at_q = dot(q - from, inward);
+      if (at_p >= 0) cut[kept++] = p;
+      if ((at_p >= 0) != (at_q >= 0)) cut[kept++] = p + (q - p) * (at_p / (at_p - at_q));
+    }
+    count = kept;
+    std::copy(cut, cut + count, polygon);
+  }
+  double twice = 0;
+  for (int k = 2; k < count; ++k)
+    twice += length(cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]));
+  return twice / 2;
+}
+
 // Of two parallel surfaces that are pressed together, which lies on the other: the higher one, seen
 // from the side in question. Without a difference a sheet with two fronts lies on a surface with
 // one, a lamp on what is dark, and otherwise the first of the two is seen, as with duplicates.
@@ -237,7 +264,7 @@ bool Exposure::sealed(int64_t patch, int32_t side, Vec3 point) const {
 }
 
 Exposure::Part::Part(const Exposure& exposure, int64_t patch, int32_t side, const Triangle& corners)
-    : exposure_(exposure), normal_(exposure.normal_of(patch, side)) {
+    : exposure_(exposure), corners_(corners), normal_(exposure.normal_of(patch, side)) {
   const int64_t k = 2 * patch + side;
   const double offset = exposure.engine_.offset();
   const Box on = box_of(corners), above = grown(on, offset);
@@ -247,6 +274,14 @@ Exposure::Part::Part(const Exposure& exposure, int64_t patch, int32_t side, cons
     const Box& box = exposure.solids_.box[exposure.enclosing_[c]];
     if (overlap(box, above)) solids_.push_back(box);
   }
+}
+
+double Exposure::Part::pressed_share() const {
+  double area = 0;
+  for (int64_t cover : covers_)
+    area += common_area(corners_, exposure_.scene_.triangle(exposure_.covers_[cover]), normal_);
+  const double all = length(corners_.area_vector()) / 2;
+  return all > 0 ? std::min(1.0, area / all) : 0;
 }
 
 bool Exposure::Part::sealed(Vec3 point) const {

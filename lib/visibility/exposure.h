@@ -32,9 +32,12 @@ class Exposure {
     Part(const Exposure& exposure, int64_t patch, int32_t side, const Triangle& corners);
     bool can_be_sealed() const { return !covers_.empty() || !solids_.empty(); }
     bool sealed(Vec3 point) const;
+    // Share of it that is pressed against other surfaces, if no two of them overlap.
+    double pressed_share() const;
 
    private:
     const Exposure& exposure_;
+    Triangle corners_;
     Vec3 normal_;
     std::vector<int64_t> covers_;  // numbers in Exposure::covers_
     std::vector<Box> solids_;

@@ -1,4 +1,5 @@
 // The tree of clusters: every surface once, bounds that hold what they should, nothing by chance.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -29,6 +30,24 @@ void collect(const Forest& forest, NodeId id, std::vector<int32_t>& roots) {
     return;
   }
   for (NodeId child : forest.cluster(node).child) collect(forest, child, roots);
+}
+
+// A tree over some surfaces leaves the others alone, and holds together what lies at one place.
+void a_tree_may_hold_some_surfaces() {
+  const Scene scene = builtin_scene("furnished-room");
+  Forest forest(scene);
+  std::vector<ClusterItem> items;
+  for (int32_t k = 0; k < static_cast<int32_t>(forest.surface_count()); k += 3)
+    items.push_back({k, Vec3{static_cast<double>(items.size() / 2), 0, 0}, 0.1});
+  add_clusters(forest, items);
+  CHECK_EQUAL(forest.clusters.clusters.size(), items.size() - 1);
+  std::vector<int32_t> roots;
+  collect(forest, forest.top(), roots);
+  std::sort(roots.begin(), roots.end());
+  CHECK_EQUAL(roots.size(), items.size());
+  for (size_t k = 0; k < roots.size(); ++k) CHECK_EQUAL(roots[k], items[k].surface);
+  for (NodeId root = 0; root < static_cast<NodeId>(forest.surface_count()); ++root)
+    CHECK_EQUAL(forest.nodes[root].parent >= 0, root % 3 == 0);
 }
 
 void every_surface_hangs_in_the_tree_once() {
@@ -177,6 +196,7 @@ void keys_differ() {
 
 int main() {
   const CMUnitTest tests[] = {
+      HRAD_TEST(a_tree_may_hold_some_surfaces),
       HRAD_TEST(every_surface_hangs_in_the_tree_once),
       HRAD_TEST(bounds_hold_what_is_in_them),
       HRAD_TEST(few_clusters_are_unlinkable),

@@ -1,4 +1,5 @@
 // Light straight from emitters, against Lambert's formula, and who counts as one.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Lit {
       : bench(std::move(s)),
         expected(expected_brightness(bench.state)),
         emitters(bench.state.forest, expected.of_node, least_bright),
-        grid(emitters, *bench.engine, 0.7),
+        grid(emitters, *bench.engine, 0.7, 8 * noise),
         light(bench.state.forest, *bench.engine, emitters, grid, noise) {}
 
   double at(Vec3 x, Vec3 normal, uint64_t key = 1) {
@@ -37,6 +38,13 @@ struct Lit {
   LightGrid grid;
   DirectLight light;
   int64_t rays = 0;
+};
+
+// The same with groups.
+struct LitByGroups : Lit {
+  explicit LitByGroups(Scene s, double noise) : Lit(std::move(s), noise) {
+    emitters.join(bench.state.forest);
+  }
 };
 
 void make_last_emit(Scene& scene, int64_t patches, double emission) {
@@ -133,10 +141,10 @@ void faces_are_joined() {
   make_last_emit(scene, 1, 70);
   make_last_emit(scene, 1, 90);
   const Lit lit(scene);
-  CHECK_EQUAL(lit.emitters.of_root(0), -1);
-  CHECK_EQUAL(lit.emitters.of_root(2), lit.emitters.of_root(3));
-  CHECK(lit.emitters.of_root(2) != lit.emitters.of_root(4));
-  CHECK_EQUAL(lit.emitters.of_root(4), lit.emitters.of_root(5));
+  CHECK_EQUAL(lit.emitters.of_node(0), -1);
+  CHECK_EQUAL(lit.emitters.of_node(2), lit.emitters.of_node(3));
+  CHECK(lit.emitters.of_node(2) != lit.emitters.of_node(4));
+  CHECK_EQUAL(lit.emitters.of_node(4), lit.emitters.of_node(5));
   for (const Emitter& e : lit.emitters.all())
     for (const Vec3& p : e.point) CHECK(length(p - e.center) <= e.radius * (1 + 1e-9));
 }
@@ -154,7 +162,7 @@ void the_grid_misses_none() {
       const Vec3 x = center + random.in_cube(1) * (radius / 1.7321);
       const bool is = lit.emitters.is_sampled(lamp, Emitters::rough_factor(lamp, x, direction));
       (is ? bright : dim) += 1;
-      if (is) CHECK(lit.emitters.can_be_sampled(lamp, center, radius));
+      if (is) CHECK(lit.emitters.is_sampled(lamp, Emitters::largest_factor(lamp, center, radius)));
     }
     CHECK(bright > 20 && dim > 20);
   }
@@ -195,6 +203,103 @@ void what_is_hidden_and_weak_has_no_links() {
   CHECK(strong.grid.by_links(0, under));
 }
 
+// Lamps in two rows over one end of a long floor, in two heights; a plate hides one row from most
+// of the floor.
+Scene floor_and_many_lamps() {
+  Scene scene;
+  add_quad(scene, {0, -2, 0}, {60, 0, 0}, {0, 4, 0});
+  for (int k = 0; k < 24; ++k) {
+    add_quad(scene, {0.7 * (k / 2), k % 2 ? 1.0 : -1.0, 3 + 0.1 * (k % 3)}, {0, 0.2, 0},
+             {0.2, 0, 0});
+    make_last_emit(scene, 2, 100);
+  }
+  add_quad(scene, {0, 0, 2.9}, {12, 0, 0}, {0, 5, 0});
+  return scene;
+}
+
+// Groups fall into smaller ones and single emitters, each in one; lamps of another plane apart.
+void groups_hold_every_emitter_once() {
+  LitByGroups lit(floor_and_many_lamps(), 1e-3);
+  const std::vector<Emitter>& all = lit.emitters.all();
+  std::vector<int> met(all.size(), 0);
+  std::vector<int32_t> stack = lit.emitters.tops();
+  int groups = 0;
+  while (!stack.empty()) {
+    const int32_t number = stack.back();
+    stack.pop_back();
+    ++met[number];
+    const Emitter& e = all[number];
+    std::vector<int32_t> below;
+    for (int32_t part : lit.emitters.parts_of(number)) {
+      CHECK_EQUAL(all[part].group, number);
+      stack.push_back(part);
+      if (all[part].members.empty())
+        below.push_back(part);
+      else
+        below.insert(below.end(), all[part].members.begin(), all[part].members.end());
+    }
+    if (e.members.empty()) {
+      CHECK_EQUAL(e.cluster, -1);
+      continue;
+    }
+    ++groups;
+    std::sort(below.begin(), below.end());
+    CHECK(below == e.members);
+    CHECK_EQUAL(lit.emitters.of_node(e.cluster), number);
+    double area = 0;
+    for (int32_t member : e.members) area += all[member].area;
+    CHECK_NEAR(e.area, area, 1e-12);
+    CHECK_NEAR(lit.bench.state.forest.area(lit.bench.state.forest.nodes[e.cluster]), area, 1e-9);
+  }
+  CHECK(groups > 8);
+  for (int count : met) CHECK_EQUAL(count, 1);
+}
+
+// What a cube looks at, groups and single lamps together, is every lamp once.
+void a_cube_sees_every_lamp_once() {
+  LitByGroups lit(floor_and_many_lamps(), 1e-3);
+  int groups = 0, singles = 0;
+  for (double x : {1.0, 9.0, 20.0, 45.0}) {
+    const OrientedPoint point{{x, -0.5, 0}, up};
+    lit.grid.open({point}, lit.bench.team);
+    std::vector<int> met(lit.emitters.all().size(), 0);
+    for (const LightGrid::Candidate& candidate : lit.grid.at(point)) {
+      const Emitter& e = lit.emitters.all()[candidate.emitter];
+      (e.members.empty() ? singles : groups) += 1;
+      if (e.members.empty()) ++met[candidate.emitter];
+      for (int32_t member : e.members) ++met[member];
+    }
+    for (size_t e = 0; e < 24; ++e) {
+      CHECK_EQUAL(met[e], 1);
+      CHECK(lit.grid.by_links(static_cast<int32_t>(e), point));
+    }
+  }
+  CHECK(groups > 4 && singles > 4);
+}
+
+// Whether by one ray or by sixteen, a group brings on the average what its lamps bring.
+void groups_bring_what_their_lamps_bring() {
+  const Scene scene = floor_and_many_lamps();
+  for (double x : {9.0, 20.0, 45.0}) {
+    const Vec3 place{x, -0.5, 0};
+    Lit single(scene, 1e-6);
+    const double wanted = single.at(place, up);
+    for (double noise : {1e6, 0.02}) {
+      LitByGroups lit(scene, noise);
+      double sum = 0, squares = 0;
+      constexpr int keys = 3000;
+      for (int k = 0; k < keys; ++k) {
+        const double value = lit.at(place, up, static_cast<uint64_t>(k));
+        sum += value;
+        squares += value * value;
+      }
+      const double mean = sum / keys, error = std::sqrt((squares / keys - mean * mean) / keys);
+      CHECK_NEAR(mean, wanted, 4 * error + 0.02 * wanted);
+      CHECK(lit.rays < single.rays);
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -208,6 +313,9 @@ int main() {
       HRAD_TEST(the_grid_misses_none),
       HRAD_TEST(pilot_rays_tell_what_is_hidden),
       HRAD_TEST(what_is_hidden_and_weak_has_no_links),
+      HRAD_TEST(groups_hold_every_emitter_once),
+      HRAD_TEST(a_cube_sees_every_lamp_once),
+      HRAD_TEST(groups_bring_what_their_lamps_bring),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

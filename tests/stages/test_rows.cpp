@@ -86,12 +86,8 @@ void rows_of_a_closed_scene_sum_to_one() {
 
 // What comes straight from the lamp and what comes by rays together is all there is: one on the
 // average, a little off by chance.
-void light_of_a_lamp_is_counted_once() {
-  Rows rows(room_with_lamp());
-  rows.settings.rays_of_cell = 256;
-  CHECK(rows.link());
+void counts_all_light_once(Rows& rows) {
   const State& state = rows.bench.state;
-  CHECK(!state.direct.links.empty());
   double sum = 0, squares = 0, area = 0;
   for (NodeId leaf : state.forest.leaves()) {
     const Node& node = state.forest.nodes[leaf];
@@ -103,6 +99,50 @@ void light_of_a_lamp_is_counted_once() {
   }
   CHECK_NEAR(sum / area, 1, 5e-4);
   CHECK(std::sqrt(squares / area) < 0.02);
+}
+
+void light_of_a_lamp_is_counted_once() {
+  Rows rows(room_with_lamp());
+  rows.settings.rays_of_cell = 256;
+  CHECK(rows.link());
+  CHECK(!rows.bench.state.direct.links.empty());
+  counts_all_light_once(rows);
+}
+
+// Two halls, one above the other, each parted by a wall with a door in it; 64 lamps.
+Scene halls_of_many_lamps() {
+  Scene scene;
+  for (double z : {0.0, 4.0}) {
+    add_box(scene, {0, 0, z}, {32, 8, z + 3}, true);
+    add_box(scene, {15.9, 0, z}, {16.1, 3, z + 3});
+    add_box(scene, {15.9, 5, z}, {16.1, 8, z + 3});
+    add_box(scene, {5, 2, z}, {7, 3, z + 0.8});
+  }
+  const int64_t first_lamp = scene.patch_count();
+  for (double z : {2.8, 6.8})
+    for (int k = 0; k < 32; ++k) {
+      const double x = 2.0 * (k % 16) + 0.8, y = 4.0 * (k / 16) + 1.8;
+      add_box(scene, {x, y, z}, {x + 0.3, y + 0.3, z + 0.1});
+    }
+  set_light(scene, 0, scene.patch_count(), 0, 0.5);
+  for (int64_t lamp = first_lamp; lamp < scene.patch_count(); lamp += 12)
+    set_light(scene, lamp, 2, 50, 0.5);
+  return scene;
+}
+
+// The same where lamps far away are groups, some of them seen only in part.
+void light_of_many_lamps_is_counted_once() {
+  Rows rows(halls_of_many_lamps());
+  rows.settings.rays_of_cell = 256;
+  rows.settings.grid_size = 1.5;
+  rows.settings.tolerance = 0.02;
+  CHECK(rows.link());
+  const State& state = rows.bench.state;
+  int64_t groups = 0, lamps = 0;
+  for (const Link& link : state.direct.links)
+    (Forest::is_cluster(state.forest.nodes[link.source]) ? groups : lamps) += 1;
+  CHECK(groups > 1000 && lamps > 1000);
+  counts_all_light_once(rows);
 }
 
 // Every surface is covered by cells once, and every exposed leaf has light at its corners.
@@ -194,7 +234,7 @@ void points_of_a_contact_have_the_means_of_quadratic_fields() {
   for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
   const Brightness none{{1, 1, 1}, std::vector<float>(bench.state.forest.nodes.size(), 0.0f), {}};
   const Emitters emitters(bench.state.forest, none.of_node, 1);
-  LightGrid grid(emitters, *bench.engine, 1);
+  LightGrid grid(emitters, *bench.engine, 1, 1);
   const DirectLight light(bench.state.forest, *bench.engine, emitters, grid, 0.1);
   const StageTools tools = bench.tools({});
   CornerSampler corners(bench.state, tools, light, grid, none, 1);
@@ -289,6 +329,7 @@ int main() {
   const CMUnitTest tests[] = {
       HRAD_TEST(rows_of_a_closed_scene_sum_to_one),
       HRAD_TEST(light_of_a_lamp_is_counted_once),
+      HRAD_TEST(light_of_many_lamps_is_counted_once),
       HRAD_TEST(cells_cover_all_surfaces),
       HRAD_TEST(the_mesh_follows_the_shadow),
       HRAD_TEST(seeds_differ_by_noise_alone),

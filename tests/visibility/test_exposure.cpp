@@ -247,6 +247,22 @@ void parts_agree_with_the_whole() {
   CHECK(sealed > 100 && exposed > 100 && clear > 100);
 }
 
+// However thin: a post of a thousandth of the floor.
+void the_pressed_share_is_exact() {
+  Scene scene;
+  add_box(scene, {0, 0, 0}, {10, 10, 3}, true);
+  add_box(scene, {4, 1, 0}, {4.1, 2, 1});
+  const Setup s(std::move(scene));
+  double pressed = 0;
+  for (int64_t p = 0; p < 12; ++p) {
+    const Triangle t = s.scene.triangle(p);
+    const Exposure::Part part(s.exposure, p, 0, t);
+    CHECK_EQUAL(part.can_be_sealed(), part.pressed_share() > 0);
+    pressed += part.pressed_share() * length(t.area_vector()) / 2;
+  }
+  CHECK_NEAR(pressed, 0.1, 1e-9);
+}
+
 }  // namespace
 
 int main() {
@@ -264,6 +280,7 @@ int main() {
       HRAD_TEST(what_exchanges_nothing_is_never_asked),
       HRAD_TEST(blockers_seal_what_they_press_on),
       HRAD_TEST(parts_agree_with_the_whole),
+      HRAD_TEST(the_pressed_share_is_exact),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
