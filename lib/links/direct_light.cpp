@@ -89,6 +89,14 @@ int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
   return rays + batch.rays;
 }
 
+int64_t DirectLight::rays_at(const OrientedPoint& point) const {
+  int64_t rays = 0;
+  for (const LightGrid::Candidate& candidate : grid_.at(point))
+    rays += rays_wanted(emitters_.all()[candidate.emitter], candidate.hidden, point.place,
+                        point.normal);
+  return rays;
+}
+
 // 1, 4 or 16, none where the emitter isn't worth sampling.
 int DirectLight::rays_wanted(const Emitter& e, bool hidden, Vec3 x, Vec3 normal) const {
   const double factor = Emitters::rough_factor(e, x, normal);

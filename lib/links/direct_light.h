@@ -26,6 +26,9 @@ class DirectLight {
   // Any thread. Returns the number of rays.
   int64_t sample(const OrientedPoint& point, uint64_t key, std::vector<Link>& links) const;
 
+  // About the rays that sample() would take there.
+  int64_t rays_at(const OrientedPoint& point) const;
+
  private:
   struct Batch;
   int rays_wanted(const Emitter& emitter, bool hidden, Vec3 x, Vec3 normal) const;

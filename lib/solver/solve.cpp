@@ -191,7 +191,7 @@ class Solver::Run {
     const int number = solution_.rounds_done + 1;
     const double from = 0.25 + 0.7 * share_of_rounds(number - 1);
     const double whole = share_of_rounds(number) - share_of_rounds(number - 1);
-    clock_.begin("refine", from, from + 0.6 * whole);
+    clock_.begin("refine", from, from + 0.95 * whole);
     const auto start = std::chrono::steady_clock::now();
     const Brightness brightness = measure_brightness(state_, *solution_.team);
     const bool done = refine_links(state_, tools(number), brightness);
@@ -203,10 +203,9 @@ class Solver::Run {
     return sweep(number);
   }
 
-  // Later rounds are the longer ones.
+  // Every round takes about twice as long as the one before.
   double share_of_rounds(int done) const {
-    const double all = rounds_wanted();
-    return std::min(1.0, (done * (done + 1.0)) / (all * (all + 1.0)));
+    return std::min(1.0, (std::ldexp(1.0, done) - 1) / (std::ldexp(1.0, rounds_wanted()) - 1));
   }
 
   // Gathering and push-pull until the radiosity transported stands still; goes on where a stop

@@ -151,12 +151,11 @@ bool CornerSampler::sample() {
         }
       },
       [&](int64_t done) {
-        // How many steps there will be isn't known: each is taken for half of what is left.
-        return tools_.progress(reached_ + (1 - reached_) / 2 * static_cast<double>(done) /
-                                              static_cast<double>(tasks));
+        const double points = static_cast<double>(value_.size()) +
+                              static_cast<double>(done * count) / static_cast<double>(tasks);
+        return tools_.progress(points / static_cast<double>(std::max(expected_, asked())));
       });
   if (!going_on) return false;
-  reached_ += (1 - reached_) / 2;
   CornerLight& direct = state_.direct;
   for (Result& r : results) {
     const size_t before = direct.links.size();

@@ -20,6 +20,10 @@ class CornerSampler {
 
   // Asks for the light at a corner; asking twice is the same as once.
   void want(int32_t surface, LatticePoint point);
+  // For the progress that sample() reports: how many points there will be in all, roughly; and how
+  // many have been asked for so far.
+  void expect(int64_t points) { expected_ = points; }
+  int64_t asked() const { return static_cast<int64_t>(value_.size() + wanted_.size()); }
   // Samples what was asked for since the last time; false: stopped.
   bool sample();
   // Of a corner that was asked for.
@@ -72,7 +76,7 @@ class CornerSampler {
   std::vector<Place> place_;  // per sampled point, roughly
   StageMemory memory_;        // of all these
   int64_t counted_ = 0;
-  double reached_ = 0;  // share of all sampling that is done, guessed
+  int64_t expected_ = 0;
 };
 
 }  // namespace hrad

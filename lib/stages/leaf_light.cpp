@@ -70,6 +70,7 @@ bool LeafLight::name() {
                                : -1);
   }
   state_.rays += grid_.open(middles, tools_.team);
+  corners_.expect(corners_.asked());
   if (!corners_.sample()) return false;
   add_up_means(leaves, centroids);
   return true;

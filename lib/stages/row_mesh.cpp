@@ -14,6 +14,19 @@ namespace {
 // An element whose middles are known already is divided for this share of the tolerance.
 constexpr double worth_keeping = 0.5;
 
+// To guess how much work there will be: points of direct light for each cell, work on a point
+// beside its shadow rays, and on a ray of a row with all that follows from it, in shadow rays.
+constexpr int64_t points_of_a_cell = 8;
+constexpr double work_of_a_point = 10, work_of_a_row_ray = 9;
+constexpr size_t most_looked_at = 4096;
+
+StageTools reporting_to_share(StageTools tools, const double& share) {
+  tools.progress = [whole = std::move(tools.progress), &share](double fraction) {
+    return whole(share * fraction);
+  };
+  return tools;
+}
+
 }  // namespace
 
 RowMesh::RowMesh(State& state, StageTools tools, const RowSettings& settings,
@@ -21,10 +34,11 @@ RowMesh::RowMesh(State& state, StageTools tools, const RowSettings& settings,
                  StageMemory& memory)
     : state_(state),
       forest_(state.forest),
-      tools_(std::move(tools)),
+      tools_(reporting_to_share(std::move(tools), share_)),
       settings_(settings),
       sampler_(state.forest, tools_.engine, tools_.exposure, tools_.oracle.seed,
                tools_.oracle.near_ratio),
+      light_(light),
       grid_(grid),
       corners_(state, tools_, light, grid, brightness, settings.seed),
       leaves_(state, tools_, grid, corners_),
@@ -36,6 +50,7 @@ bool RowMesh::build() {
   for (NodeId id : state_.cells)
     if (forest_.nodes[id].exposed > 0) open.push_back(id);
   open_grid(open);
+  guess_share(open);
   if (!keep_small_patches(open)) return false;
   for (NodeId id : open) want_corners(id);
   return sample_corners() && refine(std::move(open)) && name_leaves();
@@ -65,6 +80,20 @@ void RowMesh::open_grid(const std::vector<NodeId>& cells) {
           {(corner + middle) * 0.5, forest_.surfaces[forest_.nodes[id].surface].normal});
   }
   state_.rays += grid_.open(points, tools_.team);
+}
+
+void RowMesh::guess_share(const std::vector<NodeId>& cells) {
+  corners_.expect(points_of_a_cell * static_cast<int64_t>(cells.size()));
+  double shadow = 0, rows = 0;
+  const size_t step = cells.size() / most_looked_at + 1;
+  for (size_t k = 0; k < cells.size(); k += step) {
+    const Node& node = forest_.nodes[cells[k]];
+    const Triangle t = forest_.triangle(node);
+    const OrientedPoint point{(t.a + t.centroid()) * 0.5, forest_.surfaces[node.surface].normal};
+    shadow += points_of_a_cell * (work_of_a_point + static_cast<double>(light_.rays_at(point)));
+    rows += work_of_a_row_ray * settings_.rays_of(forest_.area(node));
+  }
+  if (shadow > 0) share_ = shadow / (shadow + rows);
 }
 
 bool RowMesh::sample_corners() {
@@ -151,6 +180,9 @@ bool RowMesh::refine(std::vector<NodeId> open) {
     for (NodeId id : open)
       if (may_divide(id)) asked.push_back(id);
     for (NodeId id : asked) want_middles(id);
+    // Later levels together ask for about as many, and each leaf for its middle.
+    const int64_t leaves = static_cast<int64_t>(forest_.nodes.size()) * 3 / 4;
+    corners_.expect(corners_.asked() + static_cast<int64_t>(asked.size()) + leaves);
     if (!sample_corners()) return false;
     const NodeId end = static_cast<NodeId>(forest_.nodes.size());
     std::vector<NodeId> families;

@@ -25,6 +25,9 @@ class RowMesh {
   // new_cells: those without a row. False: stopped.
   bool divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells);
 
+  // Of the work of linking, the share that build() is: guessed once it has begun.
+  double share_of_work() const { return share_; }
+
   // Drops the points and links that no leaf needs: the mesh is as it is to be.
   void drop_what_is_unnamed() { corners_.drop_what_is_unnamed(); }
 
@@ -32,6 +35,7 @@ class RowMesh {
   NodeId add_children(NodeId parent);
   void measure_exposure(NodeId from);
   void open_grid(const std::vector<NodeId>& cells);
+  void guess_share(const std::vector<NodeId>& cells);
   bool sample_corners();
   void make_cells();
   bool keep_small_patches(std::vector<NodeId>& open);
@@ -47,9 +51,11 @@ class RowMesh {
 
   State& state_;
   Forest& forest_;
+  double share_ = 0.3;
   const StageTools tools_;
   const RowSettings settings_;
   const LinkSampler sampler_;
+  const DirectLight& light_;
   LightGrid& grid_;
   CornerSampler corners_;
   LeafLight leaves_;

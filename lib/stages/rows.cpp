@@ -19,6 +19,9 @@ constexpr int pilot_share = 4;
 // Bounces after which it is known well enough where that is.
 constexpr int pilot_sweeps = 6;
 
+// Of all work on rows, about.
+constexpr double pilot_work = 0.4;
+
 // Deviation of what a ray brings, in units of the mean irradiance, for which the ordinary number of
 // rays is meant, and how many times that there may be.
 constexpr double ordinary_deviation = 0.15, most_more_rays = 64;
@@ -64,17 +67,11 @@ Brightness light_of_pilot_rows(State& state, ThreadTeam& team) {
   return light;
 }
 
-int rays_of(const RowSettings& settings, double area) {
-  return std::max(settings.least_rays,
-                  static_cast<int>(std::ceil(settings.rays_of_cell *
-                                             std::sqrt(std::min(1.0, area / settings.cell_area)))));
-}
-
 std::vector<int> rays_by_area(const State& state, const RowSettings& settings,
                               const std::vector<NodeId>& cells) {
   std::vector<int> rays;
   for (NodeId cell : cells)
-    rays.push_back(rays_of(settings, state.forest.area(state.forest.nodes[cell])));
+    rays.push_back(settings.rays_of(state.forest.area(state.forest.nodes[cell])));
   return rays;
 }
 
@@ -106,7 +103,7 @@ std::vector<int> rays_by_variance(const State& state, const RowSettings& setting
     const Node& node = forest.nodes[state.cells[k]];
     const double mean = sum[node.surface] / area[node.surface];
     const double share = std::sqrt((own[k] + mean) / 2) / ordinary_deviation;
-    rays.push_back(static_cast<int>(rays_of(settings, forest.area(node)) *
+    rays.push_back(static_cast<int>(settings.rays_of(forest.area(node)) *
                                     std::max(1.0, std::min(most_more_rays, share))));
   }
   return rays;
@@ -117,6 +114,12 @@ constexpr double most_of_a_group = 8;
 
 }  // namespace
 
+int RowSettings::rays_of(double area) const {
+  return std::max(
+      least_rays,
+      static_cast<int>(std::ceil(rays_of_cell * std::sqrt(std::min(1.0, area / cell_area)))));
+}
+
 bool link_rows(State& state, const StageTools& tools, const RowSettings& settings) {
   Emitters emitters(state.forest, expected_brightness(state).of_node, settings.least_bright);
   emitters.join(state.forest);
@@ -125,9 +128,11 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
                  most_of_a_group * settings.shadow_noise);
   const DirectLight light(state.forest, tools.engine, emitters, grid, settings.shadow_noise);
   StageMemory memory(state);
-  RowMesh mesh(state, part_of(tools, 0, 0.3), settings, light, grid, expected, memory);
+  RowMesh mesh(state, tools, settings, light, grid, expected, memory);
   if (!mesh.build()) return false;
   pull_exposure(state.forest);
+  const double meshed = mesh.share_of_work();
+  const double piloted = meshed + pilot_work * (1 - meshed);
 
   // The rows that cells are divided by aren't kept: those that chance made bright would be traced
   // anew and those that it made dark would stay.
@@ -137,8 +142,8 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   std::vector<NodeId> cells = state.cells;
   std::vector<int> rays;
   for (int round = 0; !cells.empty(); ++round) {
-    const double from = 0.3 + 0.3 * round / pilot_rounds;
-    if (!trace_rows(state, part_of(tools, from, from + 0.3 / pilot_rounds), pilot, grid, cells,
+    const double step = (piloted - meshed) / pilot_rounds, from = meshed + round * step;
+    if (!trace_rows(state, part_of(tools, from, from + step), pilot, grid, cells,
                     rays_by_area(state, pilot, cells), memory))
       return false;
     const Brightness seen = light_of_pilot_rows(state, tools.team);
@@ -147,7 +152,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
     if (!mesh.divide_cells(seen, cells)) return false;
     pull_exposure(state.forest);
   }
-  if (!trace_rows(state, part_of(tools, 0.6, 1), settings, grid, state.cells, rays, memory))
+  if (!trace_rows(state, part_of(tools, piloted, 1), settings, grid, state.cells, rays, memory))
     return false;
   mesh.drop_what_is_unnamed();
   reset_to_emission(state);

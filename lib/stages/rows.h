@@ -23,6 +23,9 @@ struct RowSettings {
   double shadow_noise = 0.1;   // DirectLight's
   double grid_size = 1;        // LightGrid's
   uint64_t seed = 1;
+
+  // Of the row of a cell of this area, before it is known what it sees.
+  int rays_of(double area) const;
 };
 
 // Makes mesh, rows and direct light from a state of roots alone whose exposure is known; leaves

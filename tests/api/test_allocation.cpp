@@ -88,8 +88,10 @@ struct Folder {
 // What a program does with a solver, step by step.
 class Program {
  public:
-  explicit Program(const Folder& folder)
-      : scene_(folder.path + "/a.obj"), table_(folder.path + "/a.csv") {}
+  // linking: by pairs with no smaller elements than the patches, for the solve is to be made a
+  // thousand times; or another way, coarsely.
+  explicit Program(const Folder& folder, const char* linking = "pairs")
+      : linking_(linking), scene_(folder.path + "/a.obj"), table_(folder.path + "/a.csv") {}
   ~Program() { hrad_destroy(&solver_); }
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -115,10 +117,11 @@ class Program {
       case 0:
         return hrad_create(&solver_);
       case 1:
-        // No smaller elements than the patches: the solve is to be made a thousand times.
-        return hrad_set_text(solver_, "min_area", "10");
+        return linking_ == "pairs" ? hrad_set_text(solver_, "min_area", "10")
+                                   : hrad_set_text(solver_, "accuracy", "0.5");
       case 2:
-        return hrad_set_text(solver_, "tolerance", "1");
+        return linking_ == "pairs" ? hrad_set_text(solver_, "tolerance", "1")
+                                   : hrad_set_text(solver_, "linking", linking_.c_str());
       case 3:
         return hrad_set_int(solver_, "threads", 1);
       case 14:
@@ -152,7 +155,7 @@ class Program {
   hrad_solver* solver() const { return solver_; }
 
  private:
-  std::string scene_, table_;
+  std::string linking_, scene_, table_;
   hrad_solver* solver_ = nullptr;
   uint64_t hash_ = 0;
 };
@@ -166,8 +169,9 @@ uint64_t hash_without_failure(const Folder& folder) {
 
 // Repeats one step on the same solver: the first allocation fails, then the second, until it makes
 // fewer than that and succeeds. The number of failures.
-int64_t fail_every_allocation(Program& program, int number) {
-  for (int64_t n = 0;; ++n) {
+// step: only every so many of them.
+int64_t fail_every_allocation(Program& program, int number, int64_t step = 1) {
+  for (int64_t n = 0;; n += step) {
     allocations_left = n;
     const hrad_status status = program.step(number);
     const bool failed = allocations_left.exchange(-1) < 0;
@@ -211,11 +215,35 @@ void every_allocation_may_fail() {
   CHECK_EQUAL(living.load(), before);
 }
 
+// The solve alone by the other ways of linking, which allocate for every element: a sample, of a
+// step that falls on all sorts of them.
+void every_allocation_of_a_solve_may_fail(const char* linking) {
+  const Folder folder;
+  const int64_t before = living;
+  {
+    Program program(folder, linking);
+    constexpr int solve = 6;
+    program.begin(solve);
+    const int64_t failures = fail_every_allocation(program, solve, 47);
+    CHECK(failures > 500);
+    uint64_t hash = 0, undisturbed = 0;
+    CHECK_EQUAL(hrad_state_hash(program.solver(), &hash), HRAD_OK);
+    program.begin(solve);
+    CHECK_EQUAL(program.step(solve), HRAD_OK);
+    CHECK_EQUAL(hrad_state_hash(program.solver(), &undisturbed), HRAD_OK);
+    CHECK(hash == undisturbed);
+  }
+  CHECK_EQUAL(living.load(), before);
+}
+void solves_by_rows() { every_allocation_of_a_solve_may_fail("rows"); }
+void solves_by_clusters() { every_allocation_of_a_solve_may_fail("clusters"); }
+
 }  // namespace
 
 int main() {
   // A machine that is quickly looked at: every solve does that.
   setenv("HWLOC_SYNTHETIC", "pack:1 core:2 pu:1", 1);
-  const CMUnitTest tests[] = {HRAD_TEST(every_allocation_may_fail)};
+  const CMUnitTest tests[] = {HRAD_TEST(every_allocation_may_fail), HRAD_TEST(solves_by_rows),
+                              HRAD_TEST(solves_by_clusters)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -54,11 +54,12 @@ void improve_reference(const std::string& scene, const Settings& settings, const
   }
   write_reference(path, key, reference);
   std::printf(
-      "reference %s: %zu sides of patches, %lld passes, %.0f s; %zu points, %lld passes, %.0f s; "
-      "%zu emitters\n",
+      "reference %s: %zu sides of patches, %lld passes, %.1f s, noise %.3f %%; %zu points, %lld "
+      "passes, %.1f s, noise %.3f %%; %zu emitters; calibration loop %.3f s\n",
       path.c_str(), reference.sides.targets.size(), whole(reference.sides.passes),
-      reference.sides.seconds, reference.points.targets.size(), whole(reference.points.passes),
-      reference.points.seconds, tracer.emitter_count());
+      reference.sides.seconds, 100 * noise_of(reference.sides, tracer),
+      reference.points.targets.size(), whole(reference.points.passes), reference.points.seconds,
+      100 * noise_of(reference.points, tracer), tracer.emitter_count(), calibration_seconds());
   std::fflush(stdout);
 }
 

@@ -42,6 +42,18 @@ inline std::vector<Spectrum> radiosity_of(const physics::ApiSolver& solver, cons
   return result;
 }
 
+// RMS of a reference's own noise, relative as above: the error of path tracing for so long.
+inline double noise_of(const TargetSet& set, const PathTracer& tracer) {
+  double noise = 0, energy = 0;
+  for (const Target& t : set.targets) {
+    const Spectrum rho = tracer.surfaces()[t.surface].reflectance;
+    const Spectrum wanted = rho * t.mean(), variance = rho * rho * t.variance();
+    noise += t.weight * physics::sum(variance);
+    energy += t.weight * (physics::sum(wanted * wanted) - physics::sum(variance));
+  }
+  return energy > 0 ? std::sqrt(noise / energy) : 0;
+}
+
 inline SolutionError error_of(const std::vector<Spectrum>& solution, const TargetSet& set,
                               const PathTracer& tracer) {
   const std::vector<Surface>& surfaces = tracer.surfaces();
