@@ -42,6 +42,10 @@ constexpr ParamRow kTable[] = {
              "Method of linking: pairs of patches as in the paper, clusters of patches where these "
              "are far from each other, rows of rays, or the one that suits the scene and the "
              "accuracy."),
+    text_row("detail", true, &Params::detail, "points|means",
+             "What is to be good: light at every point, for pictures and for queries at points, or "
+             "the means of patches alone, by rows without a mesh of direct light, in less time and "
+             "memory."),
     text_row("oracle", true, &Params::oracle, "energy|error",
              "What decides that a link is refined: the energy that it transports, or the estimate "
              "of its error."),

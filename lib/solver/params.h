@@ -14,6 +14,7 @@ struct Params {
   int64_t bands = 3;
   double accuracy = 0.02;
   std::string linking = "auto";   // pairs | clusters | rows | auto
+  std::string detail = "points";  // points | means
   std::string oracle = "error";   // energy | error
   double bf_epsilon = 0;          // W; 0: from accuracy
   double min_area = 0;            // unit^2; 0: from accuracy and the scene

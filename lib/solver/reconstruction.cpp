@@ -11,11 +11,14 @@ namespace {
 
 constexpr int most_bands = 16;
 
+// Direct light is known at points, and comes on top of what arrives evenly.
+bool has_points(const State& state) { return !state.direct.of_leaf.empty(); }
+
 // Irradiance that arrives evenly over a cell or leaf; the mean of a small one says more about its
 // corner than that of a large one, whose middle is farther away.
 double even_light(const State& state, NodeId id, double* values) {
   const Node& node = state.forest.nodes[id];
-  if (state.cells.empty()) {
+  if (!has_points(state)) {
     const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
     std::copy(irradiance, irradiance + state.bands, values);
   } else {
@@ -92,7 +95,7 @@ LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
     gather_corner(state, k, &at_corners[k * bands]);
   const auto even = [&](NodeId id, double* values) { return even_light(state, id, values); };
   const auto even_at = [&](NodeId id, int, double* values) { return even(id, values); };
-  if (state.cells.empty())
+  if (!has_points(state))
     return LinearField(forest, state.bands, leaves, LinearField::Known::over_elements, even_at,
                        even);
   const LinearField on_cells(forest, state.bands, state.cells, LinearField::Known::over_elements,

@@ -108,6 +108,7 @@ RowSettings rows_of(const Params& params, const Forest& forest, double distance,
   s.rays_of_cell = static_cast<int>(std::ceil(row_rays / ratio));
   s.least_rays = static_cast<int>(std::ceil(std::max(fewest_rays, least_row_rays / ratio)));
   s.tolerance = direct_tolerance * std::min(ratio, 1.0);
+  s.means_only = params.detail == "means";
   s.shadow_noise = s.tolerance / 2;
   s.least_bright = least_bright;
   s.grid_size = std::max(distance / 2, least_cube * std::sqrt(area));

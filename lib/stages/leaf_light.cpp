@@ -2,13 +2,21 @@
 #include "stages/leaf_light.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/hash.h"
+#include "base/low_discrepancy.h"
+#include "base/triangle_points.h"
+#include "links/element.h"
 #include "stages/state_memory.h"
 
 namespace hrad {
 namespace {
 
 constexpr int64_t leaves_of_a_task = 256;
+constexpr size_t leaves_of_a_batch = 8192;
+constexpr size_t fewest_points_of_a_mean = 6;
+constexpr int tries_of_a_mean = 16 * points_of_a_mean;
 
 // Weights of corners, middles of edges and centroid. Light is not linear between the corners, and
 // those lie in creases: their mean alone would be too dark. With the centroid the mean of every
@@ -46,19 +54,25 @@ struct LeafLight::Shares {
   }
 };
 
-bool LeafLight::name() {
+std::vector<NodeId> LeafLight::new_leaves() {
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
-  forget_divided();
-  state_.direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
-  state_.direct.mean.resize(forest_.nodes.size());
-  std::vector<NodeId> leaves, partly_sealed;
+  std::vector<NodeId> leaves;
   for (NodeId id = named_; id < end; ++id) {
     const Node& node = forest_.nodes[id];
-    if (Forest::is_cluster(node) || !forest_.is_leaf(id) || !(node.exposed > 0)) continue;
-    leaves.push_back(id);
-    if (!take_corners(id)) partly_sealed.push_back(id);
+    if (!Forest::is_cluster(node) && forest_.is_leaf(id) && node.exposed > 0) leaves.push_back(id);
   }
+  forget_divided();
   named_ = end;
+  state_.direct.mean.resize(forest_.nodes.size());
+  return leaves;
+}
+
+bool LeafLight::name() {
+  const std::vector<NodeId> leaves = new_leaves();
+  state_.direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
+  std::vector<NodeId> partly_sealed;
+  for (NodeId leaf : leaves)
+    if (!take_corners(leaf)) partly_sealed.push_back(leaf);
   take_own_points(partly_sealed);
   std::vector<int32_t> centroids;
   std::vector<OrientedPoint> middles;
@@ -79,10 +93,9 @@ bool LeafLight::name() {
 void LeafLight::forget_divided() {
   std::vector<LinkTable::NewRun> none;
   for (NodeId id = 0; id < named_; ++id) {
-    auto& points = state_.direct.of_leaf[id];
-    if (points[0] < 0 || forest_.is_leaf(id)) continue;
-    points = {-1, -1, -1};
-    none.push_back({id, {}});
+    if (forest_.is_leaf(id) || Forest::is_cluster(forest_.nodes[id])) continue;
+    if (!state_.direct.of_leaf.empty()) state_.direct.of_leaf[id] = {-1, -1, -1};
+    if (state_.direct.mean[id].count() > 0) none.push_back({id, {}});
   }
   state_.direct.mean.replace(std::move(none));
 }
@@ -155,6 +168,20 @@ LeafLight::Shares LeafLight::shares_of_mean(NodeId leaf, int32_t centroid) const
   return shares;
 }
 
+// Appends one link for each source that lights the leaf by links, the sum of its weights.
+void LeafLight::add_up(std::vector<Link>& all, const OrientedPoint& middle,
+                       std::vector<Link>& run) const {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Link& a, const Link& b) { return a.source < b.source; });
+  for (size_t at = 0; at < all.size();) {
+    double sum = 0;
+    const NodeId source = all[at].source;
+    for (; at < all.size() && all[at].source == source; ++at) sum += all[at].weight;
+    if (grid_.by_links(grid_.emitters().of_node(source), middle))
+      run.push_back({source, static_cast<float>(sum)});
+  }
+}
+
 // One run of links for each leaf, so that sweeps need no corners.
 void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
                              const std::vector<int32_t>& centroids) {
@@ -180,15 +207,7 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
              ++l)
           all.push_back({direct.links[l].source,
                          static_cast<float>(shares.weight[p] * direct.links[l].weight)});
-      std::stable_sort(all.begin(), all.end(),
-                       [](const Link& a, const Link& b) { return a.source < b.source; });
-      for (size_t at = 0; at < all.size();) {
-        double sum = 0;
-        const NodeId source = all[at].source;
-        for (; at < all.size() && all[at].source == source; ++at) sum += all[at].weight;
-        if (grid_.by_links(grid_.emitters().of_node(source), middle))
-          r.links.push_back({source, static_cast<float>(sum)});
-      }
+      add_up(all, middle, r.links);
       r.end.push_back(r.links.size());
     }
     memory.take(static_cast<int64_t>(r.links.capacity() * sizeof(Link)), "direct light of leaves");
@@ -201,6 +220,72 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
     runs.push_back({leaves[k], {r.links.data() + begin, r.end[in_task] - begin}});
   }
   state_.direct.mean.replace(std::move(runs));
+}
+
+std::vector<OrientedPoint> LeafLight::points_over(NodeId leaf, double large) const {
+  const Node& node = forest_.nodes[leaf];
+  const Surface& surface = forest_.surfaces[node.surface];
+  const Triangle corners = forest_.triangle(node);
+  const Exposure::Part part(tools_.exposure, surface.patch, surface.side, corners);
+  const LowDiscrepancy spread(mix(key_of(forest_, node), tools_.oracle.seed, 0x6d65616eu));
+  const double share = std::sqrt(std::min(1.0, forest_.area(node) / large));
+  const size_t wanted =
+      std::max(fewest_points_of_a_mean, static_cast<size_t>(share * points_of_a_mean));
+  std::vector<OrientedPoint> points;
+  for (int k = 0; k < tries_of_a_mean && points.size() < wanted; ++k) {
+    double p[4], x, y;
+    spread.point(static_cast<uint32_t>(k), p);
+    even_in_triangle(p[0], p[1], &x, &y);
+    const Vec3 place = corners.at(x, y);
+    if (!part.can_be_sealed() || !part.sealed(place)) points.push_back({place, surface.normal});
+  }
+  return points;
+}
+
+bool LeafLight::name_means(const DirectLight& light, double large) {
+  const std::vector<NodeId> leaves = new_leaves();
+  const size_t count = leaves.size();
+  for (size_t first = 0; first < count; first += leaves_of_a_batch) {
+    const size_t some = std::min(leaves_of_a_batch, count - first);
+    std::vector<std::vector<OrientedPoint>> points(some);
+    tools_.team.for_each(static_cast<int64_t>(some), [&](int64_t k, int) {
+      points[k] = points_over(leaves[first + static_cast<size_t>(k)], large);
+    });
+    std::vector<OrientedPoint> all;
+    for (size_t k = 0; k < some; ++k) {
+      all.insert(all.end(), points[k].begin(), points[k].end());
+      all.push_back(middle_of(forest_, leaves[first + k]));
+    }
+    state_.rays += grid_.open(all, tools_.team);
+    std::vector<std::vector<Link>> runs(some);
+    std::vector<int64_t> rays(some, 0);
+    StageMemory memory(state_);
+    const bool going_on = tools_.team.for_each(
+        static_cast<int64_t>(some),
+        [&](int64_t k, int) {
+          const NodeId leaf = leaves[first + static_cast<size_t>(k)];
+          const uint64_t key = key_of(forest_, forest_.nodes[leaf]);
+          std::vector<Link> links;
+          for (size_t p = 0; p < points[k].size(); ++p)
+            rays[k] += light.sample(points[k][p], mix(key, tools_.oracle.seed, p), links);
+          for (Link& link : links) link.weight /= static_cast<float>(points[k].size());
+          add_up(links, middle_of(forest_, leaf), runs[k]);
+          memory.take(static_cast<int64_t>(runs[k].capacity() * sizeof(Link)),
+                      "direct light of leaves");
+        },
+        [&](int64_t done) {
+          return tools_.progress((static_cast<double>(first) + static_cast<double>(done)) /
+                                 static_cast<double>(count));
+        });
+    if (!going_on) return false;
+    std::vector<LinkTable::NewRun> in_place;
+    for (size_t k = 0; k < some; ++k) {
+      state_.rays += rays[k];
+      in_place.push_back({leaves[first + k], {runs[k].data(), runs[k].size()}});
+    }
+    state_.direct.mean.replace(std::move(in_place));
+  }
+  return true;
 }
 
 }  // namespace hrad

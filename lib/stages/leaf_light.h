@@ -11,6 +11,9 @@ namespace hrad {
 // What LightGrid decides by.
 OrientedPoint middle_of(const Forest& forest, NodeId leaf);
 
+// Of points that the mean of a large leaf is made of where it is known at no points of its own.
+constexpr int points_of_a_mean = 16;
+
 class LeafLight {
  public:
   // All must outlive this.
@@ -20,13 +23,19 @@ class LeafLight {
   // Gives the leaves made since the last time their points and means, and takes those of elements
   // that are no longer leaves. The corners of the leaves must be known. False: stopped.
   bool name();
+  // The same where means alone are wanted: points spread over the exposed part of each, fewer on
+  // leaves below the area `large`, by its root.
+  bool name_means(const DirectLight& light, double large);
 
  private:
   struct Shares;
+  std::vector<NodeId> new_leaves();
   void forget_divided();
   bool take_corners(NodeId leaf);
   void take_own_points(const std::vector<NodeId>& leaves);
   Shares shares_of_mean(NodeId leaf, int32_t centroid) const;
+  std::vector<OrientedPoint> points_over(NodeId leaf, double large) const;
+  void add_up(std::vector<Link>& all, const OrientedPoint& middle, std::vector<Link>& run) const;
   void add_up_means(const std::vector<NodeId>& leaves, const std::vector<int32_t>& centroids);
 
   State& state_;

@@ -51,6 +51,7 @@ bool RowMesh::build() {
     if (forest_.nodes[id].exposed > 0) open.push_back(id);
   open_grid(open);
   guess_share(open);
+  if (settings_.means_only) return name_leaves();
   if (!keep_small_patches(open)) return false;
   for (NodeId id : open) want_corners(id);
   return sample_corners() && refine(std::move(open)) && name_leaves();
@@ -257,6 +258,7 @@ bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& ne
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
   for (NodeId id : leaves) {
     const NodeId first = add_children(id);
+    if (settings_.means_only) continue;
     if (forest_.nodes[id].light_points == half_way_to_the_middle) {
       for (NodeId child = first; child < first + 4; ++child) {
         forest_.nodes[child].light_points = half_way_to_the_middle;
@@ -287,7 +289,8 @@ bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& ne
 
 bool RowMesh::name_leaves() {
   state_.links.resize(forest_.nodes.size());
-  const bool going_on = leaves_.name();
+  const bool going_on =
+      settings_.means_only ? leaves_.name_means(light_, settings_.cell_area) : leaves_.name();
   memory_.settle();
   return going_on;
 }

@@ -55,8 +55,9 @@ class RowTracer {
         double u, v;
         root_coordinates(node, x, y, &u, &v);
         const NodeId leaf = forest.leaf_at(node.surface, u, v);
-        if (state_.direct.of_leaf[leaf][0] >= 0 && grid_.by_links(emitter, middle_of(forest, leaf)))
-          continue;
+        const bool known = settings_.means_only ? forest.nodes[leaf].exposed > 0
+                                                : state_.direct.of_leaf[leaf][0] >= 0;
+        if (known && grid_.by_links(emitter, middle_of(forest, leaf))) continue;
       }
       if (forest.nodes[source].exposed < 1 &&
           tools_.exposure.under_a_back(hit.patch, hit.back,

@@ -126,7 +126,9 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   const Brightness expected = expected_brightness(state);
   LightGrid grid(emitters, tools.engine, settings.grid_size,
                  most_of_a_group * settings.shadow_noise);
-  const DirectLight light(state.forest, tools.engine, emitters, grid, settings.shadow_noise);
+  const double noise = settings.means_only ? settings.shadow_noise * std::sqrt(points_of_a_mean)
+                                           : settings.shadow_noise;
+  const DirectLight light(state.forest, tools.engine, emitters, grid, noise);
   StageMemory memory(state);
   RowMesh mesh(state, tools, settings, light, grid, expected, memory);
   if (!mesh.build()) return false;

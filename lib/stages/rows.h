@@ -18,9 +18,11 @@ struct RowSettings {
   int least_rays = 16;
   // Deviation of direct light from linear that is tolerated between corners, weighted likewise.
   double tolerance = 0.1;
-  double min_area = 0;         // of elements
+  double min_area = 0;  // of elements
+  // Direct light is the mean over each cell, known at no points, and has no mesh of its own.
+  bool means_only = false;
   double least_bright = 0.01;  // Emitters'
-  double shadow_noise = 0.1;   // DirectLight's
+  double shadow_noise = 0.1;   // DirectLight's, at points
   double grid_size = 1;        // LightGrid's
   uint64_t seed = 1;
 

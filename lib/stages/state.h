@@ -24,7 +24,7 @@ struct CornerLight {
   // What pictures and points are made of, linear between three points of a leaf
   // (Node::light_points). Per node the numbers of these points in the order of Forest::triangle;
   // -1: the node has no direct light or is no leaf. No point is shared by two surfaces. Empty in
-  // other linking methods.
+  // other linking methods, and where means alone are wanted.
   std::vector<std::array<int32_t, 3>> of_leaf;
   std::vector<uint32_t> first;  // per point and one more: its run of links
   std::vector<Link> links;      // from roots of emitters

@@ -21,6 +21,7 @@ struct Case {
   const char* linking;
   const char* oracle;
   double accuracy;
+  const char* detail = "points";
 };
 
 // All that a user gets to see of a solution.
@@ -37,6 +38,7 @@ inline bool solve_in(const Case& c, const Surroundings& in, Results& results) {
   solver.set_text("linking", c.linking);
   solver.set_text("oracle", c.oracle);
   solver.set_double("accuracy", c.accuracy);
+  solver.set_text("detail", c.detail);
   solver.set_int("threads", in.threads);
   solver.set_text("instruction_set", in.instruction_set);
   try {

@@ -34,6 +34,9 @@ void cornell_by_rows() { check_same_bits({"cornell", "rows", "error", 0.02}, all
 void furnished_room_by_rows() {
   check_same_bits({"furnished-room", "rows", "error", 0.02}, all_surroundings);
 }
+void furnished_room_by_rows_of_means() {
+  check_same_bits({"furnished-room", "rows", "error", 0.02, "means"}, all_surroundings);
+}
 void furnace_boxes_by_rows() {
   check_same_bits({"furnace-boxes", "rows", "error", 0.02}, all_surroundings);
 }
@@ -86,6 +89,7 @@ int main() {
       HRAD_TEST(furnace_boxes_by_energy),
       HRAD_TEST(cornell_by_rows),
       HRAD_TEST(furnished_room_by_rows),
+      HRAD_TEST(furnished_room_by_rows_of_means),
       HRAD_TEST(furnace_boxes_by_rows),
       HRAD_TEST(a_missed_accuracy_by_rows),
       HRAD_TEST(cornell_by_clusters),

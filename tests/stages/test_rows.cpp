@@ -109,6 +109,23 @@ void light_of_a_lamp_is_counted_once() {
   counts_all_light_once(rows);
 }
 
+// The same where means alone are wanted, without any points.
+void means_of_lamps_are_counted_once() {
+  Rows rows(room_with_lamp());
+  rows.settings.rays_of_cell = 256;
+  rows.settings.means_only = true;
+  CHECK(rows.link());
+  const State& state = rows.bench.state;
+  CHECK(state.direct.links.empty() && state.direct.of_leaf.empty());
+  int64_t lit = 0;
+  for (NodeId cell : state.cells) {
+    CHECK(state.forest.is_leaf(cell));
+    lit += state.direct.mean[cell].count() > 0;
+  }
+  CHECK(lit > 200);
+  counts_all_light_once(rows);
+}
+
 // Two halls, one above the other, each parted by a wall with a door in it; 64 lamps.
 Scene halls_of_many_lamps() {
   Scene scene;
@@ -330,6 +347,7 @@ int main() {
       HRAD_TEST(rows_of_a_closed_scene_sum_to_one),
       HRAD_TEST(light_of_a_lamp_is_counted_once),
       HRAD_TEST(light_of_many_lamps_is_counted_once),
+      HRAD_TEST(means_of_lamps_are_counted_once),
       HRAD_TEST(cells_cover_all_surfaces),
       HRAD_TEST(the_mesh_follows_the_shadow),
       HRAD_TEST(seeds_differ_by_noise_alone),
