@@ -86,16 +86,23 @@ static void packets_and_single_segments() {
   CHECK(blocked < segments);
 }
 
-static void against_embree() {
+static bool has_embree() {
   ThreadTeam team(1);
-  std::unique_ptr<VisibilityEngine> embree;
-  const Scene scene = room_with_boxes(400, 21);
+  const Scene scene = room_with_boxes(4, 21);
   try {
-    embree = make_visibility_engine(scene, "embree", "auto", team);
+    make_visibility_engine(scene, "embree", "auto", team);
   } catch (const Error& e) {
     CHECK(e.status() == Status::unsupported);
-    skip();
+    return false;
   }
+  return true;
+}
+
+static void against_embree() {
+  if (!has_embree()) skip();  // jumps away: nothing may be left behind here
+  ThreadTeam team(1);
+  const Scene scene = room_with_boxes(400, 21);
+  const auto embree = make_visibility_engine(scene, "embree", "auto", team);
   CHECK_FAILS(make_visibility_engine(scene, "embree", "avx2", team), Status::argument, "chosen");
   const auto builtin = make_visibility_engine(scene, "builtin", "auto", team);
   CHECK(embree->bytes() > 0);
