@@ -36,9 +36,10 @@ def solve(bench, references, scene, method, accuracy):
          "--case", f"accuracy={accuracy}", scene],
         check=True, capture_output=True, text=True).stdout
     cells = [c.strip() for c in re.search(r"^\|(.*)\|$", out, re.M).group(1).split("|")]
-    if not cells[9]:
+    loops, means, points = cells[3], cells[10], cells[12]
+    if not means:
         sys.exit(f"curves.py: no reference of {scene} in {references}")
-    return [scene, method, accuracy, cells[3], cells[9].split()[0], cells[11].split()[0]]
+    return [scene, method, accuracy, loops, means.split()[0], points.split()[0]]
 
 
 def path_tracing(bench, scene, seconds):
@@ -117,9 +118,11 @@ class Panel:
     def curve(self, method, points):
         color = COLORS[method]
         places = [self.at(*p) for p in sorted(points)]
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
+        # Stroke by stroke: some programs close a path that goes on.
+        path = "".join(f"M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}"
+                       for (x, y), (u, v) in zip(places, places[1:]))
         dash = ' stroke-dasharray="5 4"' if method == "path tracing" else ""
-        yield f'<polyline points="{path}" fill="none" stroke="{color}" stroke-width="2"{dash}/>'
+        yield f'<path d="{path}" fill="none" stroke="{color}" stroke-width="2"{dash}/>'
         if not dash:
             for x, y in places:
                 yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" fill="{color}"/>'
