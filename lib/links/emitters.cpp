@@ -95,7 +95,6 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
     emitters_.back().surfaces.push_back(root);
   }
   for (Emitter& e : emitters_) finish(forest, e);
-  parts_.resize(emitters_.size());
   for (size_t e = 0; e < emitters_.size(); ++e) tops_.push_back(static_cast<int32_t>(e));
 }
 
@@ -114,7 +113,7 @@ void Emitters::join(Forest& forest) {
     if (group < 0)
       tops_.push_back(number);
     else
-      parts_[group].push_back(number);
+      emitters_[group].parts.push_back(number);
     if (e >= singles) of_node_[emitters_[e].cluster] = number;
   }
 }
@@ -165,7 +164,6 @@ void Emitters::find_groups(const Forest& forest, NodeId id, int32_t around) {
           group.thickness, std::fabs(dot(emitters_[member].center - group.center, group.normal)) +
                                widest_group * emitters_[member].radius);
     emitters_.push_back(std::move(group));
-    parts_.emplace_back();
     around = number;
   }
   for (NodeId child : cluster.child) find_groups(forest, child, around);

@@ -22,7 +22,8 @@ struct Emitter {
   // Of a group: its cluster, the source of its links, and the numbers of the emitters in it.
   NodeId cluster = -1;
   std::vector<int32_t> members;
-  int32_t group = -1;  // the number of the smallest group that it is in
+  std::vector<int32_t> parts;  // the smaller groups and single emitters that it falls into
+  int32_t group = -1;          // the number of the smallest group that it is in
 };
 
 class Emitters {
@@ -40,8 +41,6 @@ class Emitters {
   const std::vector<Emitter>& all() const { return emitters_; }
   // Those in no group.
   const std::vector<int32_t>& tops() const { return tops_; }
-  // Of a group: the smaller ones and the single emitters that it falls into; of others none.
-  const std::vector<int32_t>& parts_of(int32_t group) const { return parts_[group]; }
   // Number of the emitter that a root belongs to, or of the group of a cluster; -1: it is none.
   int32_t of_node(NodeId id) const { return of_node_[id]; }
   // About the emitter's form factor at x on a surface of this normal, 0 behind a horizon: a matter
@@ -68,7 +67,6 @@ class Emitters {
   void find_groups(const Forest& forest, NodeId id, int32_t around);
 
   std::vector<Emitter> emitters_;
-  std::vector<std::vector<int32_t>> parts_;  // per emitter
   std::vector<int32_t> tops_;
   std::vector<int32_t> of_node_;  // of roots and clusters
   double least_bright_;

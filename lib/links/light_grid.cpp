@@ -38,13 +38,13 @@ const std::vector<LightGrid::Candidate>& LightGrid::at(const OrientedPoint& poin
   return fine_.cubes[fine_.number.at(key_of(fine_, point))].candidates;
 }
 
-bool LightGrid::by_links(int32_t emitter, const OrientedPoint& middle) const {
-  const std::vector<Candidate>& candidates = at(middle);
+bool LightGrid::by_links(int32_t emitter, const OrientedPoint& middle,
+                         const std::vector<Candidate>& there) const {
   const std::vector<Emitter>& all = emitters_.all();
   for (int32_t k = emitter; k >= 0; k = all[k].group)
-    if (find(candidates, k)) return emitters_.bright(all[k], middle.place, middle.normal);
+    if (find(there, k)) return emitters_.bright(all[k], middle.place, middle.normal);
   // A group of which a neighbouring cube sees the parts: one of them speaks for all.
-  return !all[emitter].members.empty() && by_links(all[emitter].members.front(), middle);
+  return !all[emitter].members.empty() && by_links(all[emitter].members.front(), middle, there);
 }
 
 Vec3 LightGrid::corner_of(const Grid& grid, Vec3 place) const {
@@ -117,7 +117,7 @@ LightGrid::Seen LightGrid::seen_from(const Cube& cube, int32_t emitter) const {
     if (const Candidate* candidate = find(cube.candidates, k))
       return candidate->hidden ? Seen::hidden : Seen::some;
   Seen most = Seen::none;
-  for (int32_t part : emitters_.parts_of(emitter)) {
+  for (int32_t part : emitters_.all()[emitter].parts) {
     const Seen seen = seen_from(cube, part);
     if (seen == Seen::some) return seen;
     if (seen == Seen::hidden) most = seen;
@@ -138,7 +138,7 @@ int64_t LightGrid::find_emitters(const std::vector<OrientedPoint>& points, const
     const Emitter& emitter = emitters_.all()[number];
     const double factor = Emitters::largest_factor(emitter, center, radius);
     if (!emitters_.is_sampled(emitter, factor)) continue;
-    const std::vector<int32_t>& parts = emitters_.parts_of(number);
+    const std::vector<int32_t>& parts = emitter.parts;
     if (!parts.empty() &&
         (emitter.brightness * factor > most_of_a_group_ ||
          length(emitter.center - center) < group_radii * emitter.radius + radius)) {

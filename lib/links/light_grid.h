@@ -40,8 +40,9 @@ class LightGrid {
   const std::vector<Candidate>& at(const OrientedPoint& point) const;
   // Whether all that comes from an emitter to an element comes by links of their own, so that rays
   // and links count it once: a matter of the element's middle, which must lie in an open cube.
-  // Of a group, the same for all of it.
-  bool by_links(int32_t emitter, const OrientedPoint& middle) const;
+  // Of a group, the same for all of it. there: at(middle).
+  bool by_links(int32_t emitter, const OrientedPoint& middle,
+                const std::vector<Candidate>& there) const;
 
  private:
   struct Cube {

@@ -57,7 +57,7 @@ bool plane_weights(const CornerLight::OwnPoint* p, int corner, double weight[3])
 }
 
 // Irradiance at a corner, and how much it weighs.
-double direct_light(const State& state, const std::vector<float>& at_corners, NodeId leaf,
+double direct_light(const State& state, const std::vector<float>& at_points, NodeId leaf,
                     int corner, double* values) {
   const CornerLight& direct = state.direct;
   const auto& number = direct.of_leaf[leaf];
@@ -71,7 +71,7 @@ double direct_light(const State& state, const std::vector<float>& at_corners, No
   const bool plane = own && plane_weights(own, corner, weight);
   for (int b = 0; b < state.bands; ++b) {
     const auto at = [&](int c) {
-      return static_cast<double>(at_corners[static_cast<size_t>(number[c]) * state.bands + b]);
+      return static_cast<double>(at_points[static_cast<size_t>(number[c]) * state.bands + b]);
     };
     const double mean = (at(0) + at(1) + at(2)) / 3;
     if (own)
@@ -90,9 +90,9 @@ double direct_light(const State& state, const std::vector<float>& at_corners, No
 LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
   const Forest& forest = state.forest;
   const size_t bands = static_cast<size_t>(state.bands);
-  std::vector<float> at_corners(state.direct.corner_count() * bands);
-  for (size_t k = 0; k < state.direct.corner_count(); ++k)
-    gather_corner(state, k, &at_corners[k * bands]);
+  std::vector<float> at_points(state.direct.point_count() * bands);
+  for (size_t k = 0; k < state.direct.point_count(); ++k)
+    gather_point(state, k, &at_points[k * bands]);
   const auto even = [&](NodeId id, double* values) { return even_light(state, id, values); };
   const auto even_at = [&](NodeId id, int, double* values) { return even(id, values); };
   if (!has_points(state))
@@ -111,7 +111,7 @@ LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
   return LinearField(
       forest, state.bands, leaves, LinearField::Known::at_corners,
       [&](NodeId leaf, int c, double* values) {
-        const double weight = direct_light(state, at_corners, leaf, c, values);
+        const double weight = direct_light(state, at_points, leaf, c, values);
         add_from_cells(leaf, c, values);
         return weight;
       },

@@ -231,7 +231,7 @@ void CornerSampler::drop_what_is_unnamed() {
   CornerLight& direct = state_.direct;
   const Emitters& emitters = grid_.emitters();
   constexpr int32_t unnamed = -1, named = -2;
-  std::vector<int32_t> number(direct.corner_count(), unnamed);
+  std::vector<int32_t> number(direct.point_count(), unnamed);
   for (const auto& corners : direct.of_leaf)
     for (int32_t corner : corners)
       if (corner >= 0) number[corner] = named;

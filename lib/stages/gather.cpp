@@ -75,10 +75,10 @@ int64_t bytes_of_gather_space(const State& state) {
                               sizeof(float));
 }
 
-void gather_corner(const State& state, size_t corner, float* irradiance) {
+void gather_point(const State& state, size_t point, float* irradiance) {
   const CornerLight& direct = state.direct;
-  gather_run({direct.links.data() + direct.first[corner],
-              static_cast<size_t>(direct.first[corner + 1] - direct.first[corner])},
+  gather_run({direct.links.data() + direct.first[point],
+              static_cast<size_t>(direct.first[point + 1] - direct.first[point])},
              state, irradiance);
 }
 

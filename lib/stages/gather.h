@@ -15,8 +15,8 @@ struct GatherSpace {
 
 int64_t bytes_of_gather_space(const State& state);
 
-// Irradiance at a corner, straight from bright emitters: bands values.
-void gather_corner(const State& state, size_t corner, float* irradiance);
+// Irradiance at a point of CornerLight, straight from bright emitters: bands values.
+void gather_point(const State& state, size_t point, float* irradiance);
 
 // Irradiance over a node's own links alone, without direct light: bands values.
 void gather_links(const State& state, NodeId node, float* irradiance);

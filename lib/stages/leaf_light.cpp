@@ -173,11 +173,12 @@ void LeafLight::add_up(std::vector<Link>& all, const OrientedPoint& middle,
                        std::vector<Link>& run) const {
   std::stable_sort(all.begin(), all.end(),
                    [](const Link& a, const Link& b) { return a.source < b.source; });
+  const auto& there = grid_.at(middle);
   for (size_t at = 0; at < all.size();) {
     double sum = 0;
     const NodeId source = all[at].source;
     for (; at < all.size() && all[at].source == source; ++at) sum += all[at].weight;
-    if (grid_.by_links(grid_.emitters().of_node(source), middle))
+    if (grid_.by_links(grid_.emitters().of_node(source), middle, there))
       run.push_back({source, static_cast<float>(sum)});
   }
 }

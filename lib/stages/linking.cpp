@@ -171,12 +171,7 @@ class PairLinker {
       const SegmentPacket& from = bundle.drawn[k].samples.packet;
       for (int m = 0; m < 4; ++m) {
         const int to = 4 * k + m, lane = 4 * m;
-        packet.ox[to] = from.ox[lane];
-        packet.oy[to] = from.oy[lane];
-        packet.oz[to] = from.oz[lane];
-        packet.dx[to] = from.dx[lane];
-        packet.dy[to] = from.dy[lane];
-        packet.dz[to] = from.dz[lane];
+        packet.take(to, from, lane);
         packet.active |= 1u << to;
       }
     }

@@ -50,7 +50,6 @@ bool RowMesh::build() {
   for (NodeId id : state_.cells)
     if (forest_.nodes[id].exposed > 0) open.push_back(id);
   open_grid(open);
-  guess_share(open);
   if (settings_.means_only) return name_leaves();
   if (!keep_small_patches(open)) return false;
   for (NodeId id : open) want_corners(id);
@@ -74,25 +73,25 @@ NodeId RowMesh::add_children(NodeId parent) {
 void RowMesh::open_grid(const std::vector<NodeId>& cells) {
   std::vector<OrientedPoint> points;
   for (NodeId id : cells) {
+    const OrientedPoint middle = middle_of(forest_, id);
     const Triangle t = forest_.triangle(forest_.nodes[id]);
-    const Vec3 middle = t.centroid();
     for (const Vec3& corner : {t.a, t.b, t.c})
-      points.push_back(
-          {(corner + middle) * 0.5, forest_.surfaces[forest_.nodes[id].surface].normal});
+      points.push_back({(corner + middle.place) * 0.5, middle.normal});
   }
   state_.rays += grid_.open(points, tools_.team);
+  guess_share(cells, points);
 }
 
-void RowMesh::guess_share(const std::vector<NodeId>& cells) {
+// points: three of each cell.
+void RowMesh::guess_share(const std::vector<NodeId>& cells,
+                          const std::vector<OrientedPoint>& points) {
   corners_.expect(points_of_a_cell * static_cast<int64_t>(cells.size()));
   double shadow = 0, rows = 0;
   const size_t step = cells.size() / most_looked_at + 1;
   for (size_t k = 0; k < cells.size(); k += step) {
-    const Node& node = forest_.nodes[cells[k]];
-    const Triangle t = forest_.triangle(node);
-    const OrientedPoint point{(t.a + t.centroid()) * 0.5, forest_.surfaces[node.surface].normal};
-    shadow += points_of_a_cell * (work_of_a_point + static_cast<double>(light_.rays_at(point)));
-    rows += work_of_a_row_ray * settings_.rays_of(forest_.area(node));
+    const double shadow_rays = static_cast<double>(light_.rays_at(points[3 * k]));
+    shadow += points_of_a_cell * (work_of_a_point + shadow_rays);
+    rows += work_of_a_row_ray * settings_.rays_of(forest_.area(forest_.nodes[cells[k]]));
   }
   if (shadow > 0) share_ = shadow / (shadow + rows);
 }

@@ -35,7 +35,7 @@ class RowMesh {
   NodeId add_children(NodeId parent);
   void measure_exposure(NodeId from);
   void open_grid(const std::vector<NodeId>& cells);
-  void guess_share(const std::vector<NodeId>& cells);
+  void guess_share(const std::vector<NodeId>& cells, const std::vector<OrientedPoint>& points);
   bool sample_corners();
   void make_cells();
   bool keep_small_patches(std::vector<NodeId>& open);

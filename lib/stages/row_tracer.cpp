@@ -57,7 +57,8 @@ class RowTracer {
         const NodeId leaf = forest.leaf_at(node.surface, u, v);
         const bool known = settings_.means_only ? forest.nodes[leaf].exposed > 0
                                                 : state_.direct.of_leaf[leaf][0] >= 0;
-        if (known && grid_.by_links(emitter, middle_of(forest, leaf))) continue;
+        const OrientedPoint middle = middle_of(forest, leaf);
+        if (known && grid_.by_links(emitter, middle, grid_.at(middle))) continue;
       }
       if (forest.nodes[source].exposed < 1 &&
           tools_.exposure.under_a_back(hit.patch, hit.back,

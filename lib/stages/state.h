@@ -34,7 +34,7 @@ struct CornerLight {
     float x, y;
   };
   std::vector<OwnPoint> own;
-  size_t corner_count() const { return first.empty() ? 0 : first.size() - 1; }
+  size_t point_count() const { return first.empty() ? 0 : first.size() - 1; }
 };
 
 struct State {

@@ -69,17 +69,10 @@ void SubtreeRefiner::split(int32_t at, const Element& source, Link link, double 
       const int child = to / 4, lane = 4 * (to % 4);
       if (!(estimate[child].factor > 0)) {
         packet.active &= ~(1u << to);
-        packet.ox[to] = packet.oy[to] = packet.oz[to] = 0;
-        packet.dx[to] = packet.dy[to] = packet.dz[to] = 0;
+        packet.set(to, Vec3{0, 0, 0}, Vec3{0, 0, 0});
         continue;
       }
-      const SegmentPacket& from = drawn[child].samples.packet;
-      packet.ox[to] = from.ox[lane];
-      packet.oy[to] = from.oy[lane];
-      packet.oz[to] = from.oz[lane];
-      packet.dx[to] = from.dx[lane];
-      packet.dy[to] = from.dy[lane];
-      packet.dz[to] = from.dz[lane];
+      packet.take(to, drawn[child].samples.packet, lane);
     }
     blocked = tools_.engine.blocked(packet) & packet.active;
     probed = 1;

@@ -5,14 +5,6 @@
 #include <utility>
 
 namespace hrad {
-namespace {
-
-bool overlap(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
-         b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
-}  // namespace
 
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   for (size_t k = 0; k < boxes_.size(); ++k)

@@ -9,6 +9,12 @@
 
 namespace hrad {
 
+// Also where they only touch.
+inline bool overlap(const Box& a, const Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);

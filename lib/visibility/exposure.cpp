@@ -34,11 +34,6 @@ bool holds(const Box& box, Vec3 p) {
          p.z > box.low.z && p.z < box.high.z;
 }
 
-bool overlap(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
 bool same_corners(const Triangle& a, const Triangle& b) {
   const auto among = [&](Vec3 p) {
     for (Vec3 q : {b.a, b.b, b.c})

@@ -15,8 +15,8 @@
 namespace hrad {
 
 // Sixteen segments that are tested together, ordinarily those of one link. Coordinates are relative
-// to VisibilityEngine::center(). Segment i runs from (ox,oy,oz) to (ox,oy,oz)+(dx,dy,dz); only those
-// of `active` (bit i) are looked at.
+// to VisibilityEngine::center(). Segment i runs from (ox,oy,oz) to (ox,oy,oz)+(dx,dy,dz); only
+// those of `active` (bit i) are looked at.
 struct alignas(64) SegmentPacket {
   float ox[16], oy[16], oz[16];
   float dx[16], dy[16], dz[16];
@@ -31,12 +31,21 @@ struct alignas(64) SegmentPacket {
     dy[k] = static_cast<float>(to.y - from.y);
     dz[k] = static_cast<float>(to.z - from.z);
   }
+  // Likewise one of another packet.
+  void take(int k, const SegmentPacket& other, int lane) {
+    ox[k] = other.ox[lane];
+    oy[k] = other.oy[lane];
+    oz[k] = other.oz[lane];
+    dx[k] = other.dx[lane];
+    dy[k] = other.dy[lane];
+    dz[k] = other.dz[lane];
+  }
 };
 
 struct Hit {
-  int64_t patch = -1;  // -1: nothing was hit
-  double t = 0;        // hit point = origin + t * direction
-  bool back = false;   // the ray met the back of the patch
+  int64_t patch = -1;   // -1: nothing was hit
+  double t = 0;         // hit point = origin + t * direction
+  bool back = false;    // the ray met the back of the patch
   double u = 0, v = 0;  // hit point = Triangle::at(u, v) of the patch
 };
 
@@ -73,7 +82,8 @@ class VisibilityEngine {
 // (UNSUPPORTED where it was not found at configure time). instruction_set: "auto", or one of
 // "sse2", "avx2", "avx512" to force the builtin engine's kernels (ARGUMENT for one that this
 // processor lacks). The scene must outlive the engine.
-std::unique_ptr<VisibilityEngine> make_visibility_engine(const Scene& scene, const std::string& name,
+std::unique_ptr<VisibilityEngine> make_visibility_engine(const Scene& scene,
+                                                         const std::string& name,
                                                          const std::string& instruction_set,
                                                          ThreadTeam& team);
 

@@ -194,13 +194,13 @@ void what_is_hidden_and_weak_has_no_links() {
   lit.grid.open({under, beside}, lit.bench.team);
   CHECK(lit.emitters.bright(lamp, under.place, up));
   CHECK(lit.grid.at(under).empty());
-  CHECK(!lit.grid.by_links(0, under));
+  CHECK(!lit.grid.by_links(0, under, lit.grid.at(under)));
   CHECK_EQUAL(lit.grid.at(beside).size(), size_t{1});
-  CHECK(lit.grid.by_links(0, beside));
+  CHECK(lit.grid.by_links(0, beside, lit.grid.at(beside)));
   // Strong as it is, it keeps its links, and its few rays, where it is hidden.
   Lit strong(scene, 1e-6, light / 100);
   strong.grid.open({under, beside}, strong.bench.team);
-  CHECK(strong.grid.by_links(0, under));
+  CHECK(strong.grid.by_links(0, under, strong.grid.at(under)));
 }
 
 // Lamps in two rows over one end of a long floor, in two heights; a plate hides one row from most
@@ -230,7 +230,7 @@ void groups_hold_every_emitter_once() {
     ++met[number];
     const Emitter& e = all[number];
     std::vector<int32_t> below;
-    for (int32_t part : lit.emitters.parts_of(number)) {
+    for (int32_t part : e.parts) {
       CHECK_EQUAL(all[part].group, number);
       stack.push_back(part);
       if (all[part].members.empty())
@@ -271,7 +271,7 @@ void a_cube_sees_every_lamp_once() {
     }
     for (size_t e = 0; e < 24; ++e) {
       CHECK_EQUAL(met[e], 1);
-      CHECK(lit.grid.by_links(static_cast<int32_t>(e), point));
+      CHECK(lit.grid.by_links(static_cast<int32_t>(e), point, lit.grid.at(point)));
     }
   }
   CHECK(groups > 4 && singles > 4);

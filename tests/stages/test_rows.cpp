@@ -183,7 +183,7 @@ void cells_cover_all_surfaces() {
         CHECK_EQUAL(corner, -1);
         CHECK_EQUAL(state.direct.mean[id].count(), 0);
       }
-      CHECK(corner < static_cast<int32_t>(state.direct.corner_count()));
+      CHECK(corner < static_cast<int32_t>(state.direct.point_count()));
     }
 }
 
@@ -216,7 +216,7 @@ void contacts_have_the_light_of_the_exposed_part() {
   }
   CHECK(own > 0);
   for (const CornerLight::OwnPoint& point : state.direct.own) {
-    CHECK(point.number >= 0 && point.number < static_cast<int32_t>(state.direct.corner_count()));
+    CHECK(point.number >= 0 && point.number < static_cast<int32_t>(state.direct.point_count()));
     CHECK(point.x > -1e-3 && point.y > -1e-3 && point.x + point.y < 1 + 1e-3);
   }
   // Lambert's cosines over the square of the distance, from grid to grid, by rays one at a time.
