@@ -168,7 +168,7 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
   const Patches patches(state);
   if (patches.roots.empty()) return estimate;
   const Draw draw(patches.weights);
-  const RayGather rays(state, tools.engine);
+  const RayGather rays(state, tools.engine, RayGather::Solution::doubted);
   const int points = static_cast<int>(
       std::max(least_points, std::min(most_points, points_at_one_percent * 0.01 / accuracy)));
   std::vector<Residual> residuals;

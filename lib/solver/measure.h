@@ -16,7 +16,8 @@ struct ErrorEstimate {
 };
 
 // Irradiance by rays against the solution's own on patches drawn by area. What is measured is the
-// residual of one bounce; its mean is carried on through all further bounces.
+// residual of one bounce, of several where much is reflected; its mean is carried on through all
+// further bounces.
 ErrorEstimate estimate_error(const State& state, const StageTools& tools, double accuracy);
 
 struct PowerBalance {

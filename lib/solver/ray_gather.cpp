@@ -24,11 +24,17 @@ double largest_emission(const Scene& scene, int32_t patch) {
 // Of being picked by power, beside 1 for the light that would arrive.
 constexpr double share_by_power = 0.05;
 
+// Of a doubted solution: rays go on from what reflects more than that, at the most so often and so
+// many times.
+constexpr double much_reflected = 0.8, most_often = 0.97;
+constexpr int most_bounces = 128;
+
 }  // namespace
 
-RayGather::RayGather(const State& state, const VisibilityEngine& engine)
+RayGather::RayGather(const State& state, const VisibilityEngine& engine, Solution solution)
     : state_(state),
       engine_(engine),
+      solution_(solution),
       emitter_of_(static_cast<size_t>(state.forest.surface_count()), -1) {
   const Scene& scene = *state.forest.scene;
   for (NodeId root = 0; root < state.forest.surface_count(); ++root) {
@@ -74,15 +80,22 @@ double RayGather::share(size_t emitter, double chance, double distance2, double 
 
 int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_rays,
                           const Draw& emitters, double* value) const {
+  return sample(x, n, key, k, cosine_rays, emitters, 0, value);
+}
+
+int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_rays,
+                          const Draw& emitters, int bounces, double* value) const {
   std::fill(value, value + state_.bands, 0.0);
   const LowDiscrepancy directions(mix(key, 1));
+  int64_t rays = 0;
   for (int j = 0; j < cosine_rays; ++j) {
     double p[4];
-    directions.point(k * static_cast<uint32_t>(cosine_rays) + static_cast<uint32_t>(j), p);
-    add_by_cosine_ray(x, n, p, cosine_rays, emitters, value);
+    const uint32_t number = k * static_cast<uint32_t>(cosine_rays) + static_cast<uint32_t>(j);
+    directions.point(number, p);
+    rays += add_by_cosine_ray(x, n, p, mix(key, 3, number), cosine_rays, emitters, bounces, value);
   }
-  if (emitters_.empty()) return cosine_rays;
-  return cosine_rays +
+  if (emitters_.empty()) return rays;
+  return rays +
          add_by_shadow_rays(x, n, mix(key, 2), k * shadow_rays, cosine_rays, emitters, value);
 }
 
@@ -97,16 +110,24 @@ int64_t RayGather::mean(Vec3 x, Vec3 n, uint64_t key, int samples, double* value
   return rays;
 }
 
+bool RayGather::goes_on(const Hit& hit, double random) const {
+  const Scene& scene = *state_.forest.scene;
+  const double* reflectance = &scene.reflectance[static_cast<size_t>(hit.patch) * state_.bands];
+  const double largest = *std::max_element(reflectance, reflectance + state_.bands);
+  return random < std::min(most_often, (largest - much_reflected) / (1 - much_reflected));
+}
+
 // Reflected light, and the share of emitted light that such rays are to find.
-void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], int cosine_rays,
-                                  const Draw& emitters, double* value) const {
+int64_t RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double p[4], uint64_t key,
+                                     int cosine_rays, const Draw& emitters, int bounces,
+                                     double* value) const {
   const Scene& scene = *state_.forest.scene;
   const Forest& forest = state_.forest;
   const int bands = state_.bands;
-  const Vec3 direction = Frame(n).cosine_direction(hemisphere[0], hemisphere[1]);
+  const Vec3 direction = Frame(n).cosine_direction(p[0], p[1]);
   const Hit hit = engine_.nearest(x, direction, 0);
   const NodeId leaf = forest.leaf_met(hit);
-  if (leaf < 0) return;
+  if (leaf < 0) return 1;
   const NodeId root = forest.nodes[leaf].surface;
   // Sealed or not, the emitted part is the patch's own and even.
   const int32_t e = emitter_of_[root];
@@ -115,11 +136,24 @@ void RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], in
                      dot(direction, n), std::fabs(dot(direction, forest.surfaces[root].normal)),
                      cosine_rays)
              : 0.0;
-  for (int b = 0; b < bands; ++b) {
-    const double emission = scene.emission[static_cast<size_t>(hit.patch) * bands + b];
-    value[b] += (state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission) / cosine_rays +
-                emitted * emission;
+  int64_t rays = 1;
+  double arriving[most_bands];
+  const bool doubted =
+      solution_ == Solution::doubted && bounces < most_bounces && goes_on(hit, p[2]);
+  if (doubted) {
+    const Vec3 normal = forest.surfaces[root].normal;
+    const Vec3 there = scene.triangle(hit.patch).at(hit.u, hit.v) + normal * engine_.offset();
+    rays += sample(there, normal, key, 0, 1, by_power_, bounces + 1, arriving);
   }
+  for (int b = 0; b < bands; ++b) {
+    const size_t of_patch = static_cast<size_t>(hit.patch) * bands + b;
+    const double emission = scene.emission[of_patch];
+    const double reflected =
+        doubted ? scene.reflectance[of_patch] * arriving[b]
+                : state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission;
+    value[b] += reflected / cosine_rays + emitted * emission;
+  }
+  return rays;
 }
 
 int64_t RayGather::add_by_shadow_rays(Vec3 x, Vec3 n, uint64_t key, uint32_t first, int cosine_rays,

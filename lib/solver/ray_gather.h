@@ -14,7 +14,13 @@ namespace hrad {
 
 class RayGather {
  public:
-  RayGather(const State& state, const VisibilityEngine& engine);
+  // What a cosine ray brings from the leaf it meets: the solved radiosity, or (doubted) where much
+  // is reflected ordinarily what one more sample taken there finds, and so on. In a gap between
+  // bright walls light is lost little by little over many bounces, and a single one hardly shows
+  // it.
+  enum class Solution { trusted, doubted };
+  RayGather(const State& state, const VisibilityEngine& engine,
+            Solution solution = Solution::trusted);
 
   // Emitters by the light that would arrive from them without occlusion anywhere on an element; of
   // those that give power, none is never picked.
@@ -32,8 +38,11 @@ class RayGather {
   int64_t mean(Vec3 x, Vec3 n, uint64_t key, int samples, double* value) const;
 
  private:
-  void add_by_cosine_ray(Vec3 x, Vec3 n, const double hemisphere[2], int cosine_rays,
-                         const Draw& emitters, double* value) const;
+  int64_t sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_rays, const Draw& emitters,
+                 int bounces, double* value) const;
+  int64_t add_by_cosine_ray(Vec3 x, Vec3 n, const double p[4], uint64_t key, int cosine_rays,
+                            const Draw& emitters, int bounces, double* value) const;
+  bool goes_on(const Hit& hit, double random) const;
   int64_t add_by_shadow_rays(Vec3 x, Vec3 n, uint64_t key, uint32_t first, int cosine_rays,
                              const Draw& emitters, double* value) const;
   double share(size_t emitter, double chance, double distance2, double at_x, double at_y,
@@ -41,6 +50,7 @@ class RayGather {
 
   const State& state_;
   const VisibilityEngine& engine_;
+  const Solution solution_;
   std::vector<NodeId> emitters_;     // roots with emission
   std::vector<double> power_;        // of each
   std::vector<int32_t> emitter_of_;  // per root its place among them, -1: none

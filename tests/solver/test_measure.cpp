@@ -239,6 +239,28 @@ void gathering_by_rays_finds_the_light() {
   for (double m : mean) CHECK_NEAR(m, 1.5, 0.1);
 }
 
+// Between walls that reflect much a doubted solution is asked at every other bounce only: of what
+// it is wrong by the walls keep their share.
+void a_doubted_solution_shows_what_is_lost_over_many_bounces() {
+  for (double reflectance : {0.75, 0.9}) {
+    Scene scene;
+    scene.bands = 1;
+    scene.add_material({"wall", {reflectance}, {0}});
+    add_box(scene, {0, 0, 0}, {1, 1, 1}, true);
+    Workbench bench(std::move(scene));
+    bench.prepare();
+    // There is no lamp: all of this light is a mistake.
+    std::fill(bench.state.radiosity.begin(), bench.state.radiosity.end(), 1.0f);
+    double trusted, doubted;
+    RayGather(bench.state, *bench.engine).mean({0.3, 0.3, 0.4}, {0, 0, 1}, 5, 4096, &trusted);
+    RayGather(bench.state, *bench.engine, RayGather::Solution::doubted)
+        .mean({0.3, 0.3, 0.4}, {0, 0, 1}, 5, 4096, &doubted);
+    CHECK_NEAR(trusted, 1, 1e-6);
+    // X = 1/2 + 1/2 0.9 X; at 0.75 nothing is doubted.
+    CHECK_NEAR(doubted, reflectance > 0.8 ? 0.5 / 0.55 : 1, reflectance > 0.8 ? 2e-3 : 1e-6);
+  }
+}
+
 // A lamp alone: irradiance under its middle, by the closed form, whatever the number of rays.
 void gathering_by_rays_finds_the_lamp() {
   Workbench bench(lit_room(0));
@@ -271,6 +293,7 @@ int main() {
       HRAD_TEST(backs_absorb),
       HRAD_TEST(sealed_emission_is_absorbed_in_the_contact),
       HRAD_TEST(gathering_by_rays_finds_the_light),
+      HRAD_TEST(a_doubted_solution_shows_what_is_lost_over_many_bounces),
       HRAD_TEST(gathering_by_rays_finds_the_lamp),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
