@@ -10,7 +10,10 @@ namespace hrad {
 class Draw {
  public:
   Draw() = default;
-  explicit Draw(const std::vector<double>& weights) {
+  explicit Draw(const std::vector<double>& weights) { assign(weights); }
+  // Takes no new memory where there were as many items before.
+  void assign(const std::vector<double>& weights) {
+    until_.clear();
     double sum = 0;
     for (double w : weights) until_.push_back(sum += w);
   }

@@ -42,13 +42,14 @@ struct Residual {
 // The patch is measured twice, independently: the product of the two differences has the square of
 // the true one as its mean, without a bias by noise.
 Residual residual_of(const State& state, const StageTools& tools, const RayGather& rays,
-                     NodeId root, uint64_t key, int points_of_a_half, bool reflected) {
+                     RayGather::NearEmitters& space, NodeId root, uint64_t key,
+                     int points_of_a_half, bool reflected) {
   const Scene& scene = *state.forest.scene;
   const Surface& surface = state.forest.surfaces[root];
   const int bands = state.bands;
   const bool can_be_sealed = tools.exposure.can_be_sealed(surface.patch, surface.side);
   const Element element = element_of(state.forest, state.forest.nodes[root]);
-  const Draw emitters = rays.emitters_near(element);
+  const Draw& emitters = rays.emitters_near(element, space);
   double sum[2][most_bands] = {};
   Residual r;
   for (uint64_t half = 0; half < 2; ++half)
@@ -171,17 +172,18 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
   const RayGather rays(state, tools.engine, RayGather::Solution::doubted);
   const int points = static_cast<int>(
       std::max(least_points, std::min(most_points, points_at_one_percent * 0.01 / accuracy)));
+  std::vector<RayGather::NearEmitters> spaces(static_cast<size_t>(tools.team.size()));
   std::vector<Residual> residuals;
   for (int batch = 0; batch < most_batches; ++batch) {
     const size_t before = residuals.size();
     residuals.resize(before + patches_of_a_batch);
-    tools.team.for_each(patches_of_a_batch, [&](int64_t k, int) {
+    tools.team.for_each(patches_of_a_batch, [&](int64_t k, int worker) {
       const size_t number = before + static_cast<size_t>(k);
       const uint64_t h = mix(tools.oracle.seed, number, 0x6572726f72u);
       const size_t pick =
           draw.pick((static_cast<double>(k) + unit_interval(h)) / patches_of_a_batch);
-      Residual r =
-          residual_of(state, tools, rays, patches.roots[pick], h, points, patches.reflected);
+      Residual r = residual_of(state, tools, rays, spaces[static_cast<size_t>(worker)],
+                               patches.roots[pick], h, points, patches.reflected);
       const double worth = patches.areas[pick] / patches.weights[pick];
       for (double* value : {&r.square, &r.solved, &r.signed_sum, &r.solved_sum}) *value *= worth;
       residuals[number] = r;

@@ -48,8 +48,9 @@ RayGather::RayGather(const State& state, const VisibilityEngine& engine, Solutio
   by_power_ = Draw(power_);
 }
 
-Draw RayGather::emitters_near(const Element& receiver) const {
-  std::vector<double> light;
+const Draw& RayGather::emitters_near(const Element& receiver, NearEmitters& space) const {
+  std::vector<double>& light = space.light;
+  light.clear();
   double sum = 0;
   for (size_t e = 0; e < emitters_.size(); ++e) {
     const Element emitter = element_of(state_.forest, state_.forest.nodes[emitters_[e]]);
@@ -64,7 +65,8 @@ Draw RayGather::emitters_near(const Element& receiver) const {
   if (!(sum > 0)) return by_power_;
   for (size_t e = 0; e < light.size(); ++e)
     light[e] = light[e] / sum + share_by_power * by_power_.chance(e);
-  return Draw(light);
+  space.draw.assign(light);
+  return space.draw;
 }
 
 // Emission that arrives from a point of an emitter at distance d may be found by a cosine ray and

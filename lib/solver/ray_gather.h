@@ -23,8 +23,12 @@ class RayGather {
             Solution solution = Solution::trusted);
 
   // Emitters by the light that would arrive from them without occlusion anywhere on an element; of
-  // those that give power, none is never picked.
-  Draw emitters_near(const Element& receiver) const;
+  // those that give power, none is never picked. space: of one thread, used again and again.
+  struct NearEmitters {
+    std::vector<double> light;
+    Draw draw;
+  };
+  const Draw& emitters_near(const Element& receiver, NearEmitters& space) const;
 
   static constexpr int shadow_rays = 16;  // of a sample: one packet
 
