@@ -25,6 +25,7 @@ int run_render(const std::vector<std::string>& arguments, Output* output);
 int run_query(const std::vector<std::string>& arguments, Output* output);
 int run_info(const std::vector<std::string>& arguments, Output* output);
 int run_scene(const std::vector<std::string>& arguments, Output* output);
+int run_partition(const std::vector<std::string>& arguments, Output* output);
 int run_machine(const std::vector<std::string>& arguments, Output* output);
 int run_params(const std::vector<std::string>& arguments, Output* output);
 
@@ -34,11 +35,11 @@ inline constexpr Command commands[] = {
     {"render", "Solve a scene and write a picture of it", run_render},
     {"query", "Solve a scene and print values at patches, points or grids", run_query},
     {"info", "Print what is in a scene, without solving it", run_info},
+    {"partition", "Print what each rank of a cluster would get", run_partition},
     {"scene", "Write a built-in scene as an OBJ file, or list their names", run_scene},
     {"machine", "Print what is seen of this machine, and the threads started here", run_machine},
     {"params", "Print the table of parameters", run_params},
     {"check", "", nullptr},
-    {"partition", "", nullptr},
 };
 
 }  // namespace hrad::cli

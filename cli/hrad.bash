@@ -1,7 +1,7 @@
 # Completion of hrad for bash: commands, their options, parameter names and the words they take.
 # A test compares the lists with `hrad --help`, `hrad COMMAND --help` and `hrad params`.
 
-_hrad_commands='solve export render query info scene machine params'
+_hrad_commands='solve export render query info partition scene machine params'
 _hrad_run_options='--help --accuracy --threads --set --two-sided --flip --mpi --quiet --verbose'
 _hrad_params='bands accuracy linking detail oracle bf_epsilon min_area tolerance max_iterations refine seed
   unit visibility sides threads smt bind partition max_memory instruction_set'
@@ -16,6 +16,7 @@ _hrad_options() {  # of a command
     query)
       echo "$_hrad_run_options --patches --at --sensors --grid --quantity --output --json --csv" ;;
     info | machine) echo "$_hrad_run_options --json" ;;
+    partition) echo "$_hrad_run_options --ranks --method --output --json" ;;
     scene) echo '--help --output --list' ;;
     params) echo '--help --json' ;;
     *) echo '--help --version' ;;
@@ -48,6 +49,7 @@ _hrad() {
       compopt -o nospace 2>/dev/null
       return
       ;;
+    --method) _hrad_words 'cost grid' "$word"; return ;;
     --mpi) _hrad_words 'on off auto' "$word"; return ;;
     --quantity) _hrad_words 'radiosity irradiance emission net_flux' "$word"; return ;;
     --sensors) mapfile -t COMPREPLY < <(compgen -f -- "$word"); return ;;
@@ -55,11 +57,12 @@ _hrad() {
       case $command in
         scene) _hrad_files 'obj' "$word" ;;
         render | query) _hrad_files 'png' "$word" ;;
+        partition) _hrad_files 'vtu' "$word" ;;
         *) _hrad_files 'csv|vtu|ply|glb|png' "$word" ;;
       esac
       return
       ;;
-    --accuracy | --threads | --at | --grid | --size | --eye | --look | --up | --fov | --exposure | \
+    --accuracy | --threads | -n | --ranks | --at | --grid | --size | --eye | --look | --up | --fov | --exposure | \
       --range) return ;;
   esac
   if [[ $word == -* ]]; then
@@ -67,7 +70,7 @@ _hrad() {
     return
   fi
   case $command in
-    solve | export | render | query | info)
+    solve | export | render | query | info | partition)
       _hrad_files 'obj' "$word"
       local files=("${COMPREPLY[@]}")
       _hrad_words "$(hrad scene --list 2>/dev/null)" "$word"

@@ -23,16 +23,18 @@ struct Format {
 };
 
 constexpr Format formats[] = {
-    {".csv", OutputFiles::results, true},   {".vtu", OutputFiles::results, true},
-    {".ply", OutputFiles::results, true},   {".glb", OutputFiles::results, true},
-    {".png", OutputFiles::results, true},   {".png", OutputFiles::pictures, true},
-    {".hrad", OutputFiles::results, false}, {".obj", OutputFiles::scenes, true},
+    {".csv", OutputFiles::results, true},    {".vtu", OutputFiles::results, true},
+    {".ply", OutputFiles::results, true},    {".glb", OutputFiles::results, true},
+    {".png", OutputFiles::results, true},    {".png", OutputFiles::pictures, true},
+    {".hrad", OutputFiles::results, false},  {".obj", OutputFiles::scenes, true},
+    {".vtu", OutputFiles::partitions, true},
 };
 
 const char* content_of(OutputFiles::Kind kind) {
-  return kind == OutputFiles::scenes     ? "a scene"
-         : kind == OutputFiles::pictures ? "a picture"
-                                         : "a result";
+  return kind == OutputFiles::scenes       ? "a scene"
+         : kind == OutputFiles::pictures   ? "a picture"
+         : kind == OutputFiles::partitions ? "a partition"
+                                           : "a result";
 }
 
 std::string name_of(const std::string& path) {

@@ -13,7 +13,7 @@ namespace hrad::cli {
 class OutputFiles {
  public:
   // A kind of file is known by its ending; a picture is also one form of a result.
-  enum Kind { results, scenes, pictures };
+  enum Kind { results, scenes, pictures, partitions };
 
   explicit OutputFiles(Kind kind) : kind_(kind) {}
   void add_to(Arguments* arguments, const std::string& command);

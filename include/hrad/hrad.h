@@ -286,6 +286,34 @@ HRAD_API hrad_status hrad_partition(hrad_solver *solver);
  * of range, STATE before hrad_partition. */
 HRAD_API hrad_status hrad_patch_owner(const hrad_solver *solver, int64_t patch, int32_t *rank);
 
+/* What one of several ranks would get. Work is in rays, about: guessed from geometry and parameters,
+ * before light shows where elements become small. */
+typedef struct hrad_rank_load {
+  size_t struct_size;
+  int64_t patches;           /* that exchange light */
+  double work;               /* predicted, of all its patches */
+  double lower[3], upper[3]; /* the box around its patches, in the scene's unit; all 0 without any */
+  double remote;             /* 0 to 1: of the light that reaches it, the share that comes from patches
+                                of other ranks, whose radiosity takes messages; by a sample of rays,
+                                off by some percent */
+} hrad_rank_load;
+
+enum { HRAD_MOST_RANKS = 65536 }; /* that can be planned for */
+
+/* [L] Plans a partition for `ranks` ranks without starting them: what a cluster would have to do, before
+ * it is booked. method: "grid", the paper's uniform grid made tight (Padron et al., Section 3.1), or
+ * "cost", halves of equal predicted work. owner: a rank per patch of the scene, 0 for patches that
+ * exchange no light; loads: one per rank, struct_size set in the first; either may be NULL. Closes
+ * the scene as hrad_partition does. The same for any number of threads. Errors: those of
+ * hrad_partition; ARGUMENT for an unknown method or ranks outside 1 .. HRAD_MOST_RANKS. */
+HRAD_API hrad_status hrad_plan_partition(hrad_solver *solver, const char *method, int32_t ranks,
+                                         int32_t *owner, hrad_rank_load *loads);
+
+/* [L] Writes such a plan as a .vtu file for ParaView: the patches with `owner`, `work` (rays, predicted)
+ * and `patch` as cell data. Errors: those of hrad_plan_partition; FILE; ARGUMENT for another ending. */
+HRAD_API hrad_status hrad_export_partition(hrad_solver *solver, const char *method, int32_t ranks,
+                                           const char *path);
+
 /* [L] What hwloc sees of this machine and the thread pool that this solver would start, as text, one
  * `name: value` a line. Works on an empty solver. */
 HRAD_API hrad_status hrad_describe_machine(const hrad_solver *solver, char *text, int64_t size,

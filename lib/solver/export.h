@@ -4,10 +4,13 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace hrad {
 
 class Solver;
+struct PartitionPlan;
+struct Scene;
 
 // Writes the solution (.csv, .vtu, .ply, .glb) or the scene (.obj) in the format of the path's
 // ending. ARGUMENT for an ending that names no format, STATE before a solve, FILE, UNSUPPORTED for
@@ -21,6 +24,11 @@ void export_csv(const Solver& solver, const std::string& path);
 // VTK XML unstructured grid, version 1.0: one triangle with its own three points per leaf, so that
 // both sides of a surface and steps between leaves keep their values.
 void export_vtu(const Solver& solver, const std::string& path);
+
+// The patches with their owners, and the work that was predicted for each, likewise. ARGUMENT
+// unless the path ends in .vtu.
+void export_partition(const Scene& scene, const std::vector<double>& work,
+                      const PartitionPlan& plan, const std::string& path);
 
 // Polygon file, binary little-endian: a mesh with shared vertices; positions as doubles, linear
 // radiosity per band as floats, sRGB colours for display.

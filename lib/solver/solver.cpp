@@ -10,6 +10,7 @@
 #include "base/hash.h"
 #include "machine/topology.h"
 #include "solver/export.h"
+#include "solver/partition_plan.h"
 #include "solver/solution.h"
 #include "stages/state_memory.h"
 
@@ -69,6 +70,19 @@ int32_t Solver::patch_owner(int64_t patch) const {
     fail(Status::argument, "patch %lld: the scene has %lld patches, from 0 on",
          static_cast<long long>(patch), static_cast<long long>(scene_.patch_count()));
   return 0;
+}
+
+PartitionPlan Solver::plan_partition(const std::string& method, int32_t ranks) {
+  partition();
+  return hrad::plan_partition(solution_->state, *solution_->engine,
+                              predicted_work(params_, solution_->state, solution_->inspection),
+                              method, ranks);
+}
+
+void Solver::export_partition(const std::string& method, int32_t ranks, const std::string& path) {
+  const PartitionPlan plan = plan_partition(method, ranks);
+  hrad::export_partition(scene_, predicted_work(params_, solution_->state, solution_->inspection),
+                         plan, path);
 }
 
 std::string Solver::describe_machine() const {

@@ -64,6 +64,9 @@ class Solver {
   // partition and machine
   void partition();
   int32_t patch_owner(int64_t patch) const;
+  // What so many ranks would get by a method, "grid" or "cost"; partition() comes first.
+  struct PartitionPlan plan_partition(const std::string& method, int32_t ranks);
+  void export_partition(const std::string& method, int32_t ranks, const std::string& path);
   std::string describe_machine() const;
 
   // solve

@@ -23,10 +23,8 @@ refuses 2 "a command is missing"
 refuses 2 "unknown command 'slove'" slove cornell
 refuses 2 "commands: solve, export" slove
 refuses 2 "unknown option '--bogus'" --bogus
-for command in check partition; do
-  refuses 2 "'$command' is not in this version" "$command" cornell
-done
-for command in solve export render query info; do
+refuses 2 "'check' is not in this version" check cornell
+for command in solve export render query info partition; do
   refuses 2 "try 'hrad $command --help'" "$command" --bogus
   refuses 2 "hrad $command --help" "$command" -o x.csv
 done

@@ -209,6 +209,11 @@ class Calls {
     hrad_stats stats{};
     stats.struct_size = bytes_.byte() % 2 ? sizeof stats : bytes_.byte();
     check(hrad_get_stats(solver_, &stats));
+    if (bytes_.byte() % 4) return;  // it closes the scene
+    hrad_rank_load loads[4] = {};
+    loads[0].struct_size = bytes_.byte() % 2 ? sizeof *loads : bytes_.byte() % sizeof *loads;
+    check(hrad_plan_partition(solver_, bytes_.byte() % 2 ? "cost" : "grid",
+                              static_cast<int32_t>(bytes_.byte() % 5), nullptr, loads));
   }
 
   void balance() {
