@@ -135,7 +135,8 @@ void append_json(std::string* text, const std::string& scene, const SceneReport&
 int run_info(const std::vector<std::string>& arguments, Output* output) {
   RunOptions options;
   bool as_json = false;
-  Arguments parser("info", "Print what is in a scene and what is doubtful in it, without solving it.",
+  Arguments parser("info",
+                   "Print what is in a scene and what is doubtful in it, without solving it.",
                    "Areas count one side of each patch; a * marks parameters that differ from "
                    "their default.\n\nExample: hrad info room.obj --json");
   options.add_to(&parser, "info", RunOptions::a_scene);

@@ -33,7 +33,13 @@ bool still_has_name(int file, const std::string& name) {
 
 std::string FileLock::lock_name(const std::string& path) {
   std::string resolved;
-  return (resolve_path(path, resolved) ? resolved : path) + ".lock";
+  if (resolve_path(path, resolved)) return resolved + ".lock";
+  // Of a file that is not there yet, the folder has a name that stays.
+  const size_t slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
+  if (!resolve_path(folder, resolved)) resolved = folder;
+  return resolved + (resolved.back() == '/' ? "" : "/") + name + ".lock";
 }
 
 FileLock::FileLock(const std::string& path) : name_(lock_name(path)) {

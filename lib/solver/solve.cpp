@@ -123,8 +123,10 @@ class Solver::Run {
       solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
     if (other_mesh || other_light)
       begin_from_emission(by_rows_ ? first_rounds : solution_.rounds_done);
-    // By rows it follows the light.
-    if (by_rows_ && (other_mesh || more_accurate)) {
+    // By rows it follows the light; and the method may be another for another accuracy.
+    const bool other_method = solution_.linked && state_.cells.empty() == by_rows_;
+    if (other_method) clear(state_);
+    if (other_method || (by_rows_ && (other_mesh || more_accurate))) {
       solution_.linked = solution_.sweeping = false;
       solution_.tightened = 0;
       solution_.scale = 1;

@@ -1,0 +1,156 @@
+// Stopping by the progress callback, writing, going on (checkpointing.h). CLI: public headers only.
+#include "checkpointing.h"
+
+#include <sys/stat.h>
+
+#include <cstring>
+#include <utility>
+
+#include "exit_code.h"
+#include "numbers.h"
+#include "signals.h"
+
+namespace hrad::cli {
+namespace {
+
+bool exists(const std::string& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0;
+}
+
+hrad_stats stats_of(const hrad_solver* solver) {
+  hrad_stats stats{};
+  stats.struct_size = sizeof stats;
+  check(hrad_get_stats(solver, &stats));
+  return stats;
+}
+
+}  // namespace
+
+Checkpointing::Checkpointing(Session* session, CheckpointPlan plan)
+    : session_(session), plan_(std::move(plan)) {}
+
+void Checkpointing::begin() {
+  if (!plan_.path.empty()) {
+    check(hrad_set_int(session_->solver(), "checkpoint_keep", plan_.keep));
+    check(hrad_lock_checkpoint(session_->solver(), plan_.path.c_str()));
+  }
+  if (plan_.restart_auto)
+    restart_automatically();
+  else if (!plan_.restart.empty())
+    session_->restart(plan_.restart);
+  begun_ = true;
+}
+
+// False: the file is damaged, and that was said.
+bool Checkpointing::restart_from(const std::string& path) {
+  try {
+    session_->restart(path);
+    return true;
+  } catch (const Failure& failure) {
+    // What is damaged can be told from what belongs to another scene: this is a message of the
+    // file.
+    if (failure.code() != exit_checkpoint ||
+        hrad_describe_checkpoint(path.c_str(), nullptr, 0, nullptr) == HRAD_OK)
+      throw;
+    session_->terminal().say("warning: " + std::string(failure.what()));
+    return false;
+  }
+}
+
+void Checkpointing::restart_automatically() {
+  const std::string previous = plan_.path + ".prev";
+  const bool is_there = exists(plan_.path), previous_is_there = exists(previous);
+  if (!is_there && !previous_is_there) return;
+  if (is_there && restart_from(plan_.path)) {
+    const hrad_stats stats = stats_of(session_->solver());
+    sweeps_written_ = stats.iterations;
+    converged_written_ = stats.converged;
+    return;
+  }
+  // What is damaged must not take the place of what was kept.
+  keeps_damaged_ = is_there;
+  if (previous_is_there && restart_from(previous)) {
+    session_->terminal().say("warning: " + plan_.path + (is_there ? " is damaged" : " is missing") +
+                             ": going on from the older " + previous);
+    return;
+  }
+  throw Failure(exit_checkpoint,
+                plan_.path + (is_there ? " is damaged" : " is missing") + " and " + previous +
+                    (previous_is_there ? " is damaged" : " is missing"),
+                "remove what is damaged to begin anew");
+}
+
+bool Checkpointing::out_of_time() const {
+  return plan_.time_limit > 0 &&
+         std::chrono::duration<double>(Clock::now() - start_).count() >= plan_.time_limit;
+}
+
+bool Checkpointing::stops(const hrad_progress& progress) {
+  if (out_of_time()) return true;
+  if (plan_.path.empty()) return false;
+  wanted_ =
+      wanted_ || signals::take_checkpoint_request() ||
+      std::chrono::duration<double>(Clock::now() - last_written_).count() >= plan_.interval_seconds;
+  // Between sweeps a stop costs nothing; linking and rounds would begin anew.
+  return wanted_ && std::strcmp(progress.stage, "sweep") == 0;
+}
+
+int Checkpointing::solve() {
+  for (;;) {
+    const hrad_status status =
+        session_->solve_until([this](const hrad_progress& progress) { return stops(progress); });
+    if (signals::pending() != 0) throw Interrupted{signals::pending()};
+    if (status != HRAD_STOPPED) {
+      if (!plan_.path.empty() && has_news()) write();
+      return session_->conclude(status);
+    }
+    if (out_of_time()) end_with_checkpoint("the time limit is reached");
+    if (!wanted_) return session_->conclude(status);
+    write_or_warn();
+  }
+}
+
+// A solve that did nothing leaves the file as it is.
+bool Checkpointing::has_news() const {
+  const hrad_stats stats = stats_of(session_->solver());
+  return stats.iterations != sweeps_written_ || stats.converged != converged_written_;
+}
+
+void Checkpointing::write() {
+  hrad_solver* solver = session_->solver();
+  check(hrad_set_int(solver, "checkpoint_keep", keeps_damaged_ ? 0 : plan_.keep));
+  check(hrad_write_checkpoint(solver, plan_.path.c_str()));
+  keeps_damaged_ = false;
+  const hrad_stats stats = stats_of(solver);
+  sweeps_written_ = stats.iterations;
+  converged_written_ = stats.converged;
+}
+
+// A disk that is full for a while ends no solve: the old checkpoint is whole, and the next one will
+// be tried in its time.
+void Checkpointing::write_or_warn() {
+  try {
+    write();
+    if (session_->terminal().verbosity() == Verbosity::verbose)
+      session_->terminal().say("wrote " + plan_.path);
+  } catch (const Failure& failure) {
+    session_->terminal().say("warning: no checkpoint was written: " + std::string(failure.what()));
+  }
+  wanted_ = false;
+  last_written_ = Clock::now();
+}
+
+void Checkpointing::end_with_checkpoint(const std::string& why) {
+  // What was not begun is in the file already, or in none.
+  if (begun_) write();
+  throw Failure(exit_stopped, why + (begun_ ? ": " + plan_.path + " has the solve so far" : ""),
+                "the same command goes on with --restart auto");
+}
+
+void Checkpointing::end_by_signal(int signal) {
+  if (plan_.path.empty()) return;
+  end_with_checkpoint(std::string("stopped: ") + ::strsignal(signal));
+}
+
+}  // namespace hrad::cli
