@@ -44,8 +44,11 @@ std::string FileLock::lock_name(const std::string& path) {
 
 FileLock::FileLock(const std::string& path) : name_(lock_name(path)) {
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    file_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (file_ < 0 && errno == EINTR) continue;
+    constexpr int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;
+    file_ = ::open(name_.c_str(), flags | O_CREAT | O_EXCL, 0666);
+    const bool made = file_ >= 0;
+    if (file_ < 0 && errno == EEXIST) file_ = ::open(name_.c_str(), flags);
+    if (file_ < 0 && (errno == EINTR || errno == ENOENT) && attempt + 1 < attempts) continue;
     if (file_ < 0)
       fail(Status::file, "%s: cannot create the lock %s: %s", path.c_str(), name_.c_str(),
            std::strerror(errno));
@@ -53,6 +56,7 @@ FileLock::FileLock(const std::string& path) : name_(lock_name(path)) {
     const int error = errno;
     if ((locked == 0 && still_has_name(file_, name_)) || (locked != 0 && has_no_locks(error)))
       return;
+    if (made && locked != 0 && error != EWOULDBLOCK && error != EINTR) ::unlink(name_.c_str());
     ::close(file_);
     file_ = -1;
     if (locked == 0 || error == EINTR) continue;
