@@ -6,9 +6,9 @@
 
 #include "solver/checkpoint.h"
 #include "solver/checkpoint_files.h"
-#include "solver/checkpoint_frame.h"
 #include "stages/gather.h"
 #include "stages/sweep.h"
+#include "support/checkpoint_frame.h"
 
 using hrad::PackedBytes;
 using hrad::Section;
