@@ -1,4 +1,4 @@
-// Stopping by the progress callback, writing, going on (checkpointing.h). CLI: public headers only.
+// Writing from the progress callback, and at the end (checkpointing.h). CLI: public headers only.
 #include "checkpointing.h"
 
 #include <sys/stat.h>
@@ -69,7 +69,7 @@ void Checkpointing::restart_automatically() {
     return;
   }
   // What is damaged must not take the place of what was kept.
-  keeps_damaged_ = is_there;
+  if (is_there) check(hrad_set_int(session_->solver(), "checkpoint_keep", 0));
   if (previous_is_there && restart_from(previous)) {
     session_->terminal().say("warning: " + plan_.path + (is_there ? " is damaged" : " is missing") +
                              ": going on from the older " + previous);
@@ -86,29 +86,23 @@ bool Checkpointing::out_of_time() const {
          std::chrono::duration<double>(Clock::now() - start_).count() >= plan_.time_limit;
 }
 
-bool Checkpointing::stops(const hrad_progress& progress) {
+// Asked with every progress: writes when it is time, and the solve goes on.
+bool Checkpointing::stops() {
   if (out_of_time()) return true;
-  if (plan_.path.empty()) return false;
-  wanted_ =
-      wanted_ || signals::take_checkpoint_request() ||
-      std::chrono::duration<double>(Clock::now() - last_written_).count() >= plan_.interval_seconds;
-  // Between sweeps a stop costs nothing; linking and rounds would begin anew.
-  return wanted_ && std::strcmp(progress.stage, "sweep") == 0;
+  if (!plan_.path.empty() && (signals::take_checkpoint_request() ||
+                              std::chrono::duration<double>(Clock::now() - last_written_).count() >=
+                                  plan_.interval_seconds))
+    write_on_the_way();
+  return false;
 }
 
 int Checkpointing::solve() {
-  for (;;) {
-    const hrad_status status =
-        session_->solve_until([this](const hrad_progress& progress) { return stops(progress); });
-    if (signals::pending() != 0) throw Interrupted{signals::pending()};
-    if (status != HRAD_STOPPED) {
-      if (!plan_.path.empty() && has_news()) write();
-      return session_->conclude(status);
-    }
-    if (out_of_time()) end_with_checkpoint("the time limit is reached");
-    if (!wanted_) return session_->conclude(status);
-    write_or_warn();
-  }
+  const hrad_status status =
+      session_->solve_until([this](const hrad_progress&) { return stops(); });
+  if (signals::pending() != 0) throw Interrupted{signals::pending()};
+  if (status == HRAD_STOPPED && out_of_time()) end_with_checkpoint("the time limit is reached");
+  if (status != HRAD_STOPPED && !plan_.path.empty() && has_news()) write();
+  return session_->conclude(status);
 }
 
 // A solve that did nothing leaves the file as it is.
@@ -119,9 +113,7 @@ bool Checkpointing::has_news() const {
 
 void Checkpointing::write() {
   hrad_solver* solver = session_->solver();
-  check(hrad_set_int(solver, "checkpoint_keep", keeps_damaged_ ? 0 : plan_.keep));
   check(hrad_write_checkpoint(solver, plan_.path.c_str()));
-  keeps_damaged_ = false;
   const hrad_stats stats = stats_of(solver);
   sweeps_written_ = stats.iterations;
   converged_written_ = stats.converged;
@@ -129,15 +121,14 @@ void Checkpointing::write() {
 
 // A disk that is full for a while ends no solve: the old checkpoint is whole, and the next one will
 // be tried in its time.
-void Checkpointing::write_or_warn() {
-  try {
-    write();
-    if (session_->terminal().verbosity() == Verbosity::verbose)
-      session_->terminal().say("wrote " + plan_.path);
-  } catch (const Failure& failure) {
-    session_->terminal().say("warning: no checkpoint was written: " + std::string(failure.what()));
-  }
-  wanted_ = false;
+void Checkpointing::write_on_the_way() {
+  const hrad_status status = hrad_write_checkpoint(session_->solver(), plan_.path.c_str());
+  if (status < 0)
+    session_->terminal().say("warning: no checkpoint was written: " +
+                             std::string(hrad_error_message()));
+  else if (session_->terminal().verbosity() == Verbosity::verbose)
+    session_->terminal().say("wrote " + plan_.path);
+  if (status == HRAD_OK) sweeps_written_ = -1;
   last_written_ = Clock::now();
 }
 

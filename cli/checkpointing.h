@@ -28,10 +28,10 @@ class Checkpointing {
   using Clock = std::chrono::steady_clock;
   void restart_automatically();
   bool restart_from(const std::string& path);
-  bool stops(const hrad_progress& progress);
+  bool stops();
   bool out_of_time() const;
   void write();
-  void write_or_warn();
+  void write_on_the_way();
   [[noreturn]] void end_with_checkpoint(const std::string& why);
   bool has_news() const;
 
@@ -40,8 +40,6 @@ class Checkpointing {
   const Clock::time_point start_ = Clock::now();
   Clock::time_point last_written_ = Clock::now();
   bool begun_ = false;
-  bool wanted_ = false;          // a checkpoint, at the next point where nothing is lost
-  bool keeps_damaged_ = false;   // the file under the checkpoint's name is no good to be kept
   int64_t sweeps_written_ = -1;  // what the file under the checkpoint's name has, -1: not ours
   int32_t converged_written_ = 0;
 };

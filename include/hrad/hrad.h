@@ -62,8 +62,8 @@
  *
  * THREADS. Different solvers may be used from different threads at the same time. One solver is
  * used by one thread at a time; only hrad_request_stop may be called on it from anywhere. Callbacks
- * must not call functions of the solver that called them, except hrad_request_stop: those answer
- * HRAD_ERROR_STATE.
+ * must not call functions of the solver that called them, which answer HRAD_ERROR_STATE, except
+ * hrad_request_stop, and hrad_write_checkpoint in the progress callback.
  *
  * [C] marks collective functions: all ranks of the solver's communicator call them in the same
  * order. [L] marks local ones. A solver made by hrad_create has one rank.
@@ -404,9 +404,10 @@ HRAD_API hrad_status hrad_power_balance(const hrad_solver *solver, double *emitt
  * solve has come; hrad-checkpoint(5) describes the bytes. It does not depend on the number of threads,
  * nor on time or machine. */
 
-/* [C] Writes a checkpoint at any time between other calls: of a solver with a scene alone, after a
- * solve, or after one that was stopped (HRAD_STOPPED); then all of it is kept but for the stage that was
- * under way where that was linking or a round of refinement, which begin anew. The file appears whole
+/* [C] Writes a checkpoint at any time between other calls (of a solver with a scene alone, after a
+ * solve, or after one that was stopped) and from the progress callback of a solve, which then goes on.
+ * A solve that goes on from it repeats what was under way where that was linking or a round of
+ * refinement; between sweeps nothing is lost. The file appears whole
  * under its name or not at all; what was there before stays as PATH.prev, and older ones as PATH.prev2
  * and so on, as the parameter checkpoint_keep says (0: none). While it is written PATH.lock keeps
  * other writers away. Errors: FILE (what failed; the old file is whole), also when another process

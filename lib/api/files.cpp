@@ -4,6 +4,14 @@
 #include "solver/checkpoint.h"
 
 hrad_status hrad_write_checkpoint(hrad_solver* solver, const char* path) {
+  // The progress function of this solver may call it: the solve stands still meanwhile.
+  const bool from_progress =
+      solver && solver->reporting && solver->reporting_thread == std::this_thread::get_id();
+  if (from_progress)
+    return hrad::api::guarded([&] {
+      hrad::api::require(path, "the path of the checkpoint");
+      solver->solver.write_checkpoint(path);
+    });
   return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
     hrad::api::require(path, "the path of the checkpoint");
     inside.write_checkpoint(path);

@@ -225,6 +225,7 @@ class Solver::Run {
       gather(state_, *solution_.team, space);
       solution_.converged = solution_.convergence.reached(push_pull(state_, *solution_.team));
       ++solver_.stats_.iterations;
+      solution_.sweeping = !solution_.converged && !out_of_sweeps();
       going_on = clock_.report(0.5, solver_.stats_.iterations);
     }
     solver_.stats_.seconds_iterative +=
@@ -279,9 +280,12 @@ Status Solver::solve() {
   begun_ = true;
   // A stop that was asked for before the solve began holds too.
   Status status;
+  solving_ = true;
   try {
     status = Run(*this).run();
+    solving_ = false;
   } catch (...) {
+    solving_ = false;
     // Half a round may be in place, and nothing of it can be trusted: back to the loaded scene.
     solution_.reset();
     begun_ = false;

@@ -96,6 +96,8 @@ class Solver {
   // A lock that keeps other writers of this checkpoint away until another path is locked or the
   // solver goes.
   void lock_checkpoint(const std::string& path);
+  // Also from within the progress function: the state between two sweeps or before the round of
+  // refinement that is under way.
   void write_checkpoint(const std::string& path);
   // Replaces scene, result parameters and solution, or nothing of them. STATE: the solver has
   // another scene.
@@ -120,8 +122,9 @@ class Solver {
   std::atomic<bool> stop_requested_{false};
   std::unique_ptr<Solution> solution_;  // from partition() on
   std::unique_ptr<FileLock> checkpoint_lock_;
-  bool begun_ =
-      false;  // solve() was entered with a valid scene: result parameters hold from then on
+  // solve() was entered with a valid scene: result parameters hold from then on.
+  bool begun_ = false;
+  bool solving_ = false;  // the team is at work
 };
 
 }  // namespace hrad

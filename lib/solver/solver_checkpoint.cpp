@@ -44,7 +44,7 @@ void Solver::write_checkpoint(const std::string& path) {
                          {params_, scene_, begun_, s && s->linked ? &s->state : nullptr,
                           s ? s->state.rays : 0, s ? s->state.pairs : 0, *progress, stats_,
                           s ? s->balance : no_balance, s ? s->inspection : no_inspection},
-                         s ? s->team.get() : nullptr);
+                         s && !solving_ ? s->team.get() : nullptr);
   file.commit_keeping(static_cast<int>(params_.checkpoint_keep));
   stats_.seconds_output +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
