@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by tests that take a program out of a text: compiles program.c to a.out by the command of
 # the README, in the current folder.
 

@@ -2,7 +2,7 @@
 # The program of libhrad(3), compiled from the page's text and run: it says what the floor takes in,
 # three times as much in the third step as in the first.
 set -euo pipefail
-# shellcheck source=link_program.sh
+# shellcheck source-path=SCRIPTDIR source=link_program.sh
 . "$HRAD_SOURCE_DIR/tests/consumers/link_program.sh"
 
 folder=$(mktemp -d)

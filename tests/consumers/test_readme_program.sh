@@ -2,7 +2,7 @@
 # The program of the README, compiled from its text by the README's command and run: it says how
 # much power was emitted and leaves its table.
 set -euo pipefail
-# shellcheck source=link_program.sh
+# shellcheck source-path=SCRIPTDIR source=link_program.sh
 . "$HRAD_SOURCE_DIR/tests/consumers/link_program.sh"
 
 folder=$(mktemp -d)
