@@ -168,7 +168,7 @@ class Options(unittest.TestCase):
         for command, wanted in OPTIONS.items():
             page = PAGES[f"hrad-{command}.1"]
             documented = documented_options(page.section("OPTIONS")) | {"-h", "--help"}
-            if "options common to all" in page.text:
+            if "The common options" in page.text:
                 self.assertFalse(documented & self.common, command)
                 documented |= self.common
             self.assertEqual(documented, wanted, command)
@@ -186,7 +186,8 @@ class Options(unittest.TestCase):
             page = PAGES[f"hrad-{command}.1"]
             own = documented_options(page.section("OPTIONS")) - {"-h", "--help"}
             self.assertEqual(mentioned_options(page.section("SYNOPSIS")), own, command)
-            self.assertEqual(".Op Ar common options" in page.text, "options common" in page.text)
+            self.assertEqual(".Op Ar common options" in page.text,
+                             "The common options" in page.text, command)
 
     def test_options_of_hrad_alone(self):
         listed = re.findall(r"^  (?:(-\w), )?(--\w+) ", tool("--help"), re.M)
@@ -319,6 +320,14 @@ class References(unittest.TestCase):
             self.assertEqual(see, sorted(see, key=lambda entry: (entry[1], entry[0])), name)
             led_to |= {f"{target}.{section}" for target, section in see}
         self.assertEqual(set(PAGES) - led_to, set())
+
+    def test_overviews_name_the_pages_of_their_section(self):
+        for overview, ending in (("hrad.1", ".1"), ("libhrad.3", ".3")):
+            wanted = {name[:-2] for name in PAGES if name.endswith(ending)} - {overview[:-2]}
+            page = PAGES[overview]
+            for part in (page.section("DESCRIPTION"), page.section("SEE ALSO")):
+                named = set(re.findall(rf"\bXr (\S+) {ending[1]}", part)) - {"hrad", "libhrad"}
+                self.assertEqual(named, wanted - {"hrad", "libhrad"}, overview)
 
     def test_pages_are_what_their_files_say(self):
         for name, page in PAGES.items():
