@@ -18,8 +18,18 @@ esac
 
 # The flags of this build, so that a library built with a sanitizer links as well.
 flags=$(sed -n 's/^CMAKE_C_FLAGS:STRING=//p' "$HRAD_BINARY_DIR/CMakeCache.txt")
-library_path=$(dirname "$(find "$folder/after" -name 'libhrad.*' | head -n 1)")
+library_path=$(dirname "$(find "$folder/after" -name 'libhrad.[as]*' | head -n 1)")
 export LD_LIBRARY_PATH=$library_path
+
+# Every function has a manual page under its own name; links lead to pages that are there.
+manual=$(dirname "$(find after -name man3)")
+for name in $(sed -n 's/^HRAD_API.*[ *]\(hrad_[a-z_]*\)(.*/\1/p' "$HRAD_SOURCE_DIR/include/hrad/hrad.h"); do
+  [[ -s $manual/man3/$name.3 ]] || { echo "no man page $name(3)" >&2 && exit 1; }
+done
+for link in $(sed -n 's/^\.so //p' "$manual"/man3/*); do
+  [[ -s $manual/$link ]] || { echo "a link of man leads to $link, which is not there" >&2 && exit 1; }
+done
+[[ -s $manual/man7/hrad-params.7 ]] || { echo "no man page hrad-params(7)" >&2 && exit 1; }
 
 runs() {  # PROGRAM
   "$1" || { echo "$1 ends with $?" >&2 && exit 1; }

@@ -1,5 +1,6 @@
-# The manual pages are right mdoc, and the one of the .hrad format names the sections and the version
-# that the library writes.
+# shellcheck shell=bash
+# The manual pages are right mdoc, also the one that is made, and the one of the .hrad format names the
+# sections and the version that the library writes.
 cd "${HRAD_SOURCE_DIR:?the path of the sources}" || exit 1
 page=man/hrad-checkpoint.5
 failed=0
@@ -11,4 +12,7 @@ version=$(sed -n 's/^constexpr uint32_t checkpoint_version = \([0-9]*\);/\1/p' l
 grep -q "the version of the format, $version\$" $page || { echo "$page: not version $version" >&2; failed=1; }
 [ $failed = 0 ] || exit 1
 command -v mandoc >/dev/null || { echo "skipped: no mandoc"; exit 77; }
-mandoc -T lint -W warning man/*.5
+made=$(mktemp -d)
+trap 'rm -rf "$made"' EXIT
+sh man/params_page.sh "$HRAD" man/hrad-params.7.in "$made/hrad-params.7" || exit 1
+mandoc -T lint -W warning man/*.[1-9] "$made/hrad-params.7"
