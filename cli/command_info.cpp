@@ -82,10 +82,11 @@ void append_solution(std::string* text, const SolutionReport& report) {
   for (const auto& [name, value] : report.description) table.add_row({name, value});
   if (report.is_solved) {
     table.add_row({"state hash", report.hash});
-    table.add_row(
-        {"error estimate", report.stats.error_estimate < 0
-                               ? "not measured"
-                               : short_text(100 * report.stats.error_estimate, 3) + " %"});
+    table.add_row({"error estimate",
+                   report.stats.error_estimate < 0
+                       ? "not measured"
+                       : short_text(100 * report.stats.error_estimate, 3) + " % +- " +
+                             short_text(100 * report.stats.error_standard_error, 3) + " %"});
     table.add_row({"power emitted", join(report.emitted) + " W"});
     table.add_row({"absorbed", join(report.absorbed) + " W"});
     table.add_row({"absorbed by backs", join(report.absorbed_back) + " W"});

@@ -74,7 +74,8 @@
  * error: the text is cut. Text in structs has static lifetime unless its field says otherwise.
  *
  * STRUCTS begin with size_t struct_size, which the caller sets to sizeof the struct; only that much
- * is read or written, so that programs built against an older header keep working.
+ * is read or written, so that programs built against an older header keep working. Of an array of
+ * structs the first one's size holds for all: it is also the distance from one to the next.
  */
 #ifndef HRAD_HRAD_H
 #define HRAD_HRAD_H
@@ -104,8 +105,10 @@ typedef struct hrad_solver hrad_solver;
 typedef int32_t hrad_status;
 enum {
   HRAD_OK = 0,
-  HRAD_NOT_CONVERGED = 1,      /* max_iterations reached, or the measured error surely more than twice the
-                                  accuracy; the result is usable, the promise is not kept */
+  HRAD_NOT_CONVERGED = 1,      /* max_iterations reached, or the measured error less three of its standard
+                                  errors above twice the accuracy and above 2 % (not judged with a
+                                  tolerance of one's own or oracle=energy); the result is usable, the
+                                  promise is not kept */
   HRAD_STOPPED = 2,            /* hrad_request_stop or the progress callback asked for it */
   HRAD_ERROR_ARGUMENT = -1,    /* a NULL, a value out of range, an unknown name */
   HRAD_ERROR_STATE = -2,       /* a call out of order */
@@ -173,7 +176,7 @@ typedef struct hrad_param {
  * Errors: ARGUMENT for an unknown name, a wrong type or a value out of range (the message names the
  * range); STATE for a result parameter after hrad_solve has begun, unless it is a smaller `accuracy`,
  * a larger `max_iterations`, `refine`, or the value it already has. `bands` only before the first
- * material. */
+ * material, `visibility` only before hrad_partition. */
 HRAD_API hrad_status hrad_set_int(hrad_solver *solver, const char *name, int64_t value);
 HRAD_API hrad_status hrad_set_double(hrad_solver *solver, const char *name, double value);
 HRAD_API hrad_status hrad_set_text(hrad_solver *solver, const char *name, const char *value);
@@ -200,8 +203,9 @@ typedef struct hrad_material {
   const char *name;          /* may be NULL; copied */
 } hrad_material;
 
-/* [C] Adds a material and stores its number (from 0) in *material (may be NULL). Everything is
- * copied. Errors: ARGUMENT for a value out of range or not finite; STATE after hrad_partition. */
+/* [C] Adds a material and stores its number (from 0) in *number (may be NULL). Everything is
+ * copied. Errors: ARGUMENT for a value out of range or not finite, or a blocker with emission; STATE
+ * after hrad_partition. */
 HRAD_API hrad_status hrad_add_material(hrad_solver *solver, const hrad_material *material,
                                        int32_t *number);
 
@@ -220,12 +224,13 @@ HRAD_API hrad_status hrad_add_patches(hrad_solver *solver, int64_t n_vertices, c
  * in a material's definition set its flags). MTL files are read from the scene's folder and those
  * below it alone. Only rank 0 opens files. Parameter `sides` says how windings are read (front |
  * two-sided | flip). Needs bands = 1 or 3 (1: the mean of the three channels). Adds to what is there.
- * Errors: FILE; SCENE with file:line; STATE after hrad_partition; MEMORY. Nothing is added then. */
+ * Errors: FILE; SCENE with file:line; STATE after hrad_partition, or for other bands; MEMORY. Nothing
+ * is added then. */
 HRAD_API hrad_status hrad_load_scene(hrad_solver *solver, const char *path);
 
 /* [C] Makes a built-in scene in an empty solver: building, classroom, each also as NAME-x10 and
  * NAME-x100, cornell, furnace and others: see hrad_scene_name. Errors: ARGUMENT for an unknown name
- * (the message lists all); STATE if there are patches already. */
+ * (the message lists all); STATE if there are patches or materials already. */
 HRAD_API hrad_status hrad_make_scene(hrad_solver *solver, const char *name);
 
 /* [L] The name of built-in scene `index` (from 0), NULL past the last. Static text. */
@@ -267,8 +272,8 @@ HRAD_API hrad_status hrad_get_diagnostic(const hrad_solver *solver, int64_t inde
                                          int64_t size, int64_t *needed);
 
 /* [C] Sets emission (W/m2: 0, or 1e-30 to 1e30) or reflectance ([0,1)) of `count` patches from `first_patch` on;
- * count*bands values, the bands of a patch side by side. Also after a solve: the mesh and the links
- * stay, and the next hrad_solve starts from B = E. Errors: ARGUMENT for ranges and values; STATE for
+ * count*bands values, the bands of a patch side by side. Also after a solve: the next hrad_solve then
+ * starts from B = E, with refine = 0 on the mesh and the links as they are. Errors: ARGUMENT for ranges and values; STATE for
  * a blocker with emission. */
 HRAD_API hrad_status hrad_set_emission(hrad_solver *solver, int64_t first_patch, int64_t count,
                                        const double *emission);

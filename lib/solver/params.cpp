@@ -79,9 +79,10 @@ constexpr ParamRow kTable[] = {
     int_row("smt", false, &Params::smt, 0, 1, "",
             "1 also uses the further hardware threads of each core when threads is 0."),
     int_row("bind", false, &Params::bind, 0, 1, "", "1 binds each thread to its core."),
-    text_row("partition", false, &Params::partition, "cost|grid",
-             "How patches are dealt out to ranks: by measured cost, or by the paper's uniform grid "
-             "of boxes."),
+    text_row(
+        "partition", false, &Params::partition, "cost|grid",
+        "How patches are dealt out to ranks: halves of equal work, or the paper's uniform grid "
+        "of boxes; one rank owns all."),
     int_row("max_memory", false, &Params::max_memory, 0, kLargestExact, "bytes",
             "Memory over which a solve stops with an error; 0 sets no limit."),
     int_row(
