@@ -94,6 +94,7 @@ contains
       status = code
     else if (code < 0) then
       write (error_unit, "(4a)") "hrad: ", hrad_status_name(code), ": ", hrad_error_message()
+      flush (error_unit)
       error stop 1
     end if
   end subroutine conclude

@@ -94,14 +94,30 @@ contains
     real(c_double), contiguous, intent(inout), target, optional :: reflectance(:), emission(:)
     integer(c_int32_t), intent(inout), optional :: flags
     integer(c_int32_t), intent(out), optional :: status
-    call get_material_64(solver, int(material, c_int64_t), name, reflectance, emission, flags, &
+    character(len=:), allocatable :: found_name
+    call read_material(solver, int(material, c_int64_t), found_name, reflectance, emission, flags, &
       status)
+    if (present(name) .and. allocated(found_name)) name = found_name
   end subroutine get_material_32
 
   subroutine get_material_64(solver, material, name, reflectance, emission, flags, status)
     type(hrad_solver), intent(in) :: solver
     integer(c_int64_t), intent(in) :: material
     character(len=:), allocatable, intent(inout), optional :: name
+    real(c_double), contiguous, intent(inout), target, optional :: reflectance(:), emission(:)
+    integer(c_int32_t), intent(inout), optional :: flags
+    integer(c_int32_t), intent(out), optional :: status
+    character(len=:), allocatable :: found_name
+    call read_material(solver, material, found_name, reflectance, emission, flags, status)
+    if (present(name) .and. allocated(found_name)) name = found_name
+  end subroutine get_material_64
+
+  ! The name stays without allocation after an error. (It is not optional: gfortran 12 loses the
+  ! length of an optional one that is handed on.)
+  subroutine read_material(solver, material, name, reflectance, emission, flags, status)
+    type(hrad_solver), intent(in) :: solver
+    integer(c_int64_t), intent(in) :: material
+    character(len=:), allocatable, intent(inout) :: name
     real(c_double), contiguous, intent(inout), target, optional :: reflectance(:), emission(:)
     integer(c_int32_t), intent(inout), optional :: flags
     integer(c_int32_t), intent(out), optional :: status
@@ -129,18 +145,20 @@ contains
     allocate (buffer(1))
     needed = 0
     found_flags = 0
-    code = c_get_material(handle_of(solver), index, buffer, 0_c_int64_t, needed, &
-      reflectance_address, emission_address, found_flags)
-    if (code == HRAD_OK .and. present(name)) then
+    code = c_get_material(handle_of(solver), index, buffer, 0_c_int64_t, needed, c_null_ptr, &
+      c_null_ptr, found_flags)
+    if (code == HRAD_OK) then
       deallocate (buffer)
       allocate (buffer(needed))
-      code = c_get_material(handle_of(solver), index, buffer, needed, needed, c_null_ptr, &
-        c_null_ptr, found_flags)
-      if (code == HRAD_OK) name = text_of_buffer(buffer)
+      code = c_get_material(handle_of(solver), index, buffer, needed, needed, &
+        reflectance_address, emission_address, found_flags)
     end if
-    if (code == HRAD_OK .and. present(flags)) flags = found_flags
+    if (code == HRAD_OK) then
+      name = text_of_buffer(buffer)
+      if (present(flags)) flags = found_flags
+    end if
     call finish(code, status)
-  end subroutine get_material_64
+  end subroutine read_material
 
   ! Loads an OBJ file with its MTL files and adds it to what is there; needs bands = 1 or 3. Errors:
   ! FILE; SCENE with file:line; STATE after hrad_partition; MEMORY. Nothing is added then.
