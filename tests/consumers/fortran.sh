@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # For the tests of Fortran programs, to be sourced: links them by the README's command against this
 # build; the test is skipped where the build has no Fortran module.
 

@@ -16,7 +16,8 @@ module reference
       type(c_ptr), value :: solver
     end subroutine reference_destroy
 
-    function reference_results(solver, hash, leaves, radiosity, flux, balance) bind(c) result(status)
+    function reference_results(solver, hash, leaves, radiosity, flux, balance) bind(c) &
+      result(status)
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: solver
       integer(c_int64_t), intent(out) :: hash, leaves

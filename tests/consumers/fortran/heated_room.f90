@@ -1,13 +1,13 @@
 ! A heated room, as a finite-element program would compute it: the mesh of its surfaces is made of
 ! arrays, and in every time step the temperatures give the emission, hrad the net fluxes, and these
-! the temperatures of the next step. The first step solves with refinement, the others sweep over its
-! mesh and links alone.
+! the temperatures of the next step. The first step solves with refinement, the others sweep over
+! its mesh and links alone.
 !
 ! Emission is that above the room's first temperature, sigma*(T**4 - T0**4): in a closed room of one
-! temperature nothing flows, so that only differences count. It prints a row a step: the heater's
-! temperature in K; the net flux in W that leaves the heater, floor, ceiling and the four walls; what
-! the fluxes of all patches miss of balance, and what the library's own balance misses, in W; and the
-! mean temperature of the floor.
+! temperature nothing flows, so that only differences count. It prints a row a step: its number; the
+! heater's temperature in K; the net flux in W that leaves the heater, floor, ceiling and the four
+! walls; what the fluxes of all patches miss of balance, and what the library's own balance misses,
+! in W; and the mean temperature of the floor in K.
 program heated_room
   use hrad
   use room_mesh

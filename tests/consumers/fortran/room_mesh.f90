@@ -1,5 +1,5 @@
-! The mesh of the heated room: triangles with the number of the face they belong to. The room's faces
-! look inward, the heater's outward.
+! The mesh of the heated room: triangles with the number of the face they belong to. The room's
+! faces look inward, the heater's outward.
 module room_mesh
   implicit none
   private
@@ -26,33 +26,32 @@ contains
     call add_box(room, [0.1d0, 1.2d0, 0.15d0], [0.2d0, 2.8d0, 0.75d0], .false.)
   end function furnished_mesh
 
-  ! A box: a room with six faces that look inward, or a heater, one face that looks outward.
+  ! A box: a room of six faces that look inward, or a heater, whose one face looks outward on all
+  ! sides.
   subroutine add_box(room, lower, upper, inward)
     type(mesh), intent(inout) :: room
     double precision, intent(in) :: lower(3), upper(3)
     logical, intent(in) :: inward
-    double precision :: x(3), y(3), z(3), across(3), far(3)
+    double precision :: x(3), y(3), z(3)
     integer :: n
     x = [upper(1) - lower(1), 0d0, 0d0]
     y = [0d0, upper(2) - lower(2), 0d0]
     z = [0d0, 0d0, upper(3) - lower(3)]
-    far = upper
     n = merge(6, 2, inward)
     if (inward) then
       call add_face(room, lower, x, y, n, ground)
-      call add_face(room, far, -y, -x, n, ceiling)
+      call add_face(room, upper, -y, -x, n, ceiling)
       call add_face(room, lower, y, z, n, 4)
-      call add_face(room, far, -z, -y, n, 5)
+      call add_face(room, upper, -z, -y, n, 5)
       call add_face(room, lower, z, x, n, 6)
-      call add_face(room, far, -x, -z, n, 7)
+      call add_face(room, upper, -x, -z, n, 7)
     else
-      across = y
-      call add_face(room, lower, across, x, n, heater)
-      call add_face(room, far, -x, -across, n, heater)
-      call add_face(room, lower, z, across, n, heater)
-      call add_face(room, far, -across, -z, n, heater)
+      call add_face(room, lower, y, x, n, heater)
+      call add_face(room, upper, -x, -y, n, heater)
+      call add_face(room, lower, z, y, n, heater)
+      call add_face(room, upper, -y, -z, n, heater)
       call add_face(room, lower, x, z, n, heater)
-      call add_face(room, far, -z, -x, n, heater)
+      call add_face(room, upper, -z, -x, n, heater)
     end if
   end subroutine add_box
 
