@@ -149,7 +149,7 @@ contains
     call hrad_query_leaves(solver, 1, patch, area=area, status=status)
     call expect_fails(status, HRAD_ERROR_ARGUMENT, "patch has the shape (50)", "50 and 100 places")
     call hrad_query_leaves(solver, 1, radiosity=radiosity(1:2, :), status=status)
-    call expect_fails(status, HRAD_ERROR_ARGUMENT, "radiosity has the shape (2, 50)", "2 of 3 bands")
+    call expect_fails(status, HRAD_ERROR_ARGUMENT, "radiosity has the shape (2, 50)", "2 bands")
     call hrad_query_leaves(solver, 1, corners_xyz=corners(1:2, :, :), status=status)
     call expect_fails(status, HRAD_ERROR_ARGUMENT, "corners_xyz has the shape (2, 3", "2 of 3 axes")
   end subroutine leaves
