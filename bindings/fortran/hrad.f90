@@ -36,6 +36,11 @@
 ! CALLBACKS are module procedures with the interface hrad_log_procedure or hrad_progress_procedure.
 ! A context of any type is handed on to them. They must not call procedures of the solver that
 ! called them, except hrad_request_stop.
+!
+! OTHER COMPILERS: compile the sources in the order hrad_constants, hrad_types, hrad_text,
+! hrad_errors, hrad_c_setup, hrad_c_results, hrad_checks, then the others, and this one last; with
+! OpenMP switched on when several threads of a program call the binding. The status is an
+! integer(c_int32_t), the default integer unless an option changes that.
 module hrad
   use hrad_constants
   use hrad_creation, only: hrad_create, hrad_destroy, hrad_set_log

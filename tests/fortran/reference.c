@@ -1,6 +1,8 @@
 /* The C side of the Fortran tests: the same calls from C, whose results the Fortran ones must equal
  * bit for bit, and structs made in Fortran taken apart by C's own declarations. */
+#define _POSIX_C_SOURCE 200112L /* for pthread_barrier_t */
 #include <hrad/hrad.h>
+#include <pthread.h>
 
 /* cornell, solved to an accuracy of 0.1; NULL when something failed. */
 hrad_solver *reference_create(void);
@@ -44,6 +46,37 @@ int32_t reference_leaves(hrad_solver *solver, int64_t first, int64_t count, int6
 
 void reference_destroy(hrad_solver *solver);
 void reference_destroy(hrad_solver *solver) { hrad_destroy(&solver); }
+
+/* Runs a procedure on two threads at once, as number 1 and 2; 0 when both were started. */
+static void (*both_do)(int32_t number, pthread_barrier_t *meeting);
+static pthread_barrier_t both_meet;
+
+static void *first_thread(void *unused) {
+  both_do(1, &both_meet);
+  return unused;
+}
+
+static void *second_thread(void *unused) {
+  both_do(2, &both_meet);
+  return unused;
+}
+
+int32_t reference_two_threads(void (*procedure)(int32_t number, pthread_barrier_t *meeting));
+int32_t reference_two_threads(void (*procedure)(int32_t number, pthread_barrier_t *meeting)) {
+  pthread_t first, second;
+  both_do = procedure;
+  if (pthread_barrier_init(&both_meet, NULL, 2) != 0) return 1;
+  if (pthread_create(&first, NULL, first_thread, NULL) != 0) return 2;
+  if (pthread_create(&second, NULL, second_thread, NULL) != 0) return 3;
+  pthread_join(first, NULL);
+  pthread_join(second, NULL);
+  pthread_barrier_destroy(&both_meet);
+  return 0;
+}
+
+/* Waits until both threads are here. */
+void reference_meet(pthread_barrier_t *meeting);
+void reference_meet(pthread_barrier_t *meeting) { pthread_barrier_wait(meeting); }
 
 /* The sizes of the structs: patch, rank load, stats. */
 void reference_sizes(int64_t sizes[3]);

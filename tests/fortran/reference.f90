@@ -47,6 +47,17 @@ module reference
       integer(c_int32_t) :: status
     end function reference_leaves
 
+    function reference_two_threads(procedure) bind(c) result(status)
+      import :: c_funptr, c_int32_t
+      type(c_funptr), value :: procedure
+      integer(c_int32_t) :: status
+    end function reference_two_threads
+
+    subroutine reference_meet(meeting) bind(c)
+      import :: c_ptr
+      type(c_ptr), value :: meeting
+    end subroutine reference_meet
+
     subroutine reference_sizes(sizes) bind(c)
       import :: c_int64_t
       integer(c_int64_t), intent(out) :: sizes(3)
