@@ -1,6 +1,6 @@
 ! How calls end: status or error stop, and the message of the last failure. The binding's own
-! message is all that outlives a call here; it belongs to one thread where OpenMP is switched on for
-! this file (as the library's CMake files do), as the library's messages always do.
+! message is all that outlives a call here; it belongs to one thread where OpenMP is switched on (as
+! the library's CMake files do), as the library's messages always do.
 module hrad_errors
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_ptr
   use, intrinsic :: iso_fortran_env, only: error_unit

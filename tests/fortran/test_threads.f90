@@ -13,7 +13,7 @@ module two_threads
 
 contains
 
-  subroutine work(number, meeting) bind(c)
+  recursive subroutine work(number, meeting) bind(c)
     integer(c_int32_t), value :: number
     type(c_ptr), value :: meeting
     type(hrad_solver) :: solver

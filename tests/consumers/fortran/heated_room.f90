@@ -48,6 +48,7 @@ program heated_room
     where (.not. is_heater) temperature = temperature - time_step / capacity * flux(1, :)
   end do
   call hrad_destroy(solver)
+  deallocate (temperature, area, emission, flux, is_heater)
 
 contains
 
