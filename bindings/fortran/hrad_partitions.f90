@@ -86,7 +86,7 @@ contains
     loads_address = c_null_ptr
     if (present(loads)) then
       if (misshapen("hrad_plan_partition", "loads", shape(loads, c_int64_t), &
-        [int(max(ranks, 0), c_int64_t)], status)) return
+        [int(max(ranks, 0_c_int32_t), c_int64_t)], status)) return
       loads%struct_size = fresh%struct_size
       if (size(loads) > 0) loads_address = c_loc(loads)
     end if
