@@ -74,12 +74,6 @@ void Arguments::add_list(const std::string& names, const std::string& value_name
       ->allow_extra_args(false);
 }
 
-void Arguments::add_hidden_option(const std::string& names, std::optional<std::string>* value) {
-  parser_->app
-      .add_option_function<std::string>(names, [value](const std::string& text) { *value = text; })
-      ->group("");
-}
-
 void Arguments::exclude(const std::string& one, const std::string& other) {
   parser_->app.get_option(one)->excludes(parser_->app.get_option(other));
 }

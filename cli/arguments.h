@@ -23,8 +23,6 @@ class Arguments {
                   std::optional<std::string>* value, const std::string& help);
   void add_list(const std::string& names, const std::string& value_name,
                 std::vector<std::string>* values, const std::string& help);
-  // Understood, but not shown in --help.
-  void add_hidden_option(const std::string& names, std::optional<std::string>* value);
   void exclude(const std::string& one, const std::string& other);
 
   // False: --help was asked for, and `help_text` has it. Failure (usage) for anything wrong.

@@ -16,7 +16,7 @@ using CommandFunction = int (*)(const std::vector<std::string>& arguments, Outpu
 struct Command {
   const char* name;
   const char* summary;
-  CommandFunction run;  // nullptr: a name kept for a later version
+  CommandFunction run;
 };
 
 int run_solve(const std::vector<std::string>& arguments, Output* output);
@@ -24,6 +24,7 @@ int run_export(const std::vector<std::string>& arguments, Output* output);
 int run_render(const std::vector<std::string>& arguments, Output* output);
 int run_query(const std::vector<std::string>& arguments, Output* output);
 int run_info(const std::vector<std::string>& arguments, Output* output);
+int run_check(const std::vector<std::string>& arguments, Output* output);
 int run_scene(const std::vector<std::string>& arguments, Output* output);
 int run_partition(const std::vector<std::string>& arguments, Output* output);
 int run_machine(const std::vector<std::string>& arguments, Output* output);
@@ -35,11 +36,11 @@ inline constexpr Command commands[] = {
     {"render", "Solve a scene and write a picture of it", run_render},
     {"query", "Solve a scene and print values at patches, points or grids", run_query},
     {"info", "Print what is in a scene, without solving it", run_info},
+    {"check", "Verify every checksum and invariant of a .hrad file", run_check},
     {"partition", "Print what each rank of a cluster would get", run_partition},
     {"scene", "Write a built-in scene as an OBJ file, or list their names", run_scene},
     {"machine", "Print what is seen of this machine, and the threads started here", run_machine},
     {"params", "Print the table of parameters", run_params},
-    {"check", "", nullptr},
 };
 
 }  // namespace hrad::cli

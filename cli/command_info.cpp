@@ -1,10 +1,14 @@
 // hrad info. CLI: public headers only.
+#include <algorithm>
+#include <cmath>
+
 #include "command.h"
 #include "json.h"
 #include "numbers.h"
 #include "run_options.h"
 #include "scene_report.h"
 #include "session.h"
+#include "solve_report.h"
 #include "text_table.h"
 
 namespace hrad::cli {
@@ -40,8 +44,85 @@ std::vector<ParameterValue> parameter_values(const Session& session) {
   return result;
 }
 
+// What is known of a solution in a file besides its scene.
+struct SolutionReport {
+  std::vector<std::pair<std::string, std::string>> description;  // of the library
+  bool is_solved = false;
+  std::string hash;
+  std::vector<double> emitted, absorbed, absorbed_back, escaped;  // W per band
+  hrad_stats stats{};
+};
+
+SolutionReport make_solution_report(Session* session, const std::string& path) {
+  SolutionReport report;
+  const std::string text = fetch_text([&](char* to, int64_t size, int64_t* needed) {
+    return hrad_describe_checkpoint(path.c_str(), to, size, needed);
+  });
+  for (std::string_view line : split(text, '\n')) {
+    const size_t colon = line.find(": ");
+    if (colon != std::string_view::npos)
+      report.description.emplace_back(line.substr(0, colon), line.substr(colon + 2));
+  }
+  report.stats.struct_size = sizeof report.stats;
+  check(hrad_get_stats(session->solver(), &report.stats));
+  int64_t leaves = 0;
+  report.is_solved = hrad_leaf_count(session->solver(), &leaves) == HRAD_OK;
+  if (!report.is_solved) return report;
+  report.hash = hash_text(session->solver());
+  const auto bands = static_cast<size_t>(session->bands());
+  for (auto* power : {&report.emitted, &report.absorbed, &report.absorbed_back, &report.escaped})
+    power->resize(bands);
+  check(hrad_power_balance(session->solver(), report.emitted.data(), report.absorbed.data(),
+                           report.absorbed_back.data(), report.escaped.data()));
+  return report;
+}
+
+void append_solution(std::string* text, const SolutionReport& report) {
+  TextTable table("ll");
+  for (const auto& [name, value] : report.description) table.add_row({name, value});
+  if (report.is_solved) {
+    table.add_row({"state hash", report.hash});
+    table.add_row(
+        {"error estimate", report.stats.error_estimate < 0
+                               ? "not measured"
+                               : short_text(100 * report.stats.error_estimate, 3) + " %"});
+    table.add_row({"power emitted", join(report.emitted) + " W"});
+    table.add_row({"absorbed", join(report.absorbed) + " W"});
+    table.add_row({"absorbed by backs", join(report.absorbed_back) + " W"});
+    table.add_row({"escaped", join(report.escaped) + " W"});
+  }
+  *text += "\n" + table.text();
+}
+
+void append_solution(JsonWriter* json, const SolutionReport& report) {
+  json->begin_object("solution");
+  for (auto [name, value] : report.description) {
+    std::replace(name.begin(), name.end(), ' ', '_');
+    int64_t number = 0;
+    if (read_integer(value, &number))
+      json->field(name.c_str(), number);
+    else
+      json->field(name.c_str(), value);
+  }
+  if (report.is_solved) {
+    const auto bands = static_cast<int64_t>(report.emitted.size());
+    json->field("state_hash", report.hash);
+    const bool measured = report.stats.error_estimate >= 0;
+    json->field("error_estimate", measured ? report.stats.error_estimate : NAN);
+    json->field("emitted", report.emitted.data(), bands);
+    json->field("absorbed", report.absorbed.data(), bands);
+    json->field("absorbed_back", report.absorbed_back.data(), bands);
+    json->field("escaped", report.escaped.data(), bands);
+  }
+  json->end();
+}
+
+using AppendReport = void(std::string* text, const std::string& scene, const SceneReport& report,
+                          const std::vector<ParameterValue>& parameters,
+                          const SolutionReport* solution);
+
 void append_text(std::string* text, const std::string& scene, const SceneReport& report,
-                 const std::vector<ParameterValue>& parameters) {
+                 const std::vector<ParameterValue>& parameters, const SolutionReport* solution) {
   TextTable sizes("ll");
   const std::string& unit = report.unit;
   sizes.add_row({"scene", scene});
@@ -76,6 +157,7 @@ void append_text(std::string* text, const std::string& scene, const SceneReport&
                                 : std::string(" (default ") + parameter.row.default_text + ")")});
   *text += "\n" + table.text();
 
+  if (solution != nullptr) append_solution(text, *solution);
   *text += report.diagnostics.empty() ? "\nnothing doubtful was found\n" : "\n";
   for (const std::string& diagnostic : report.diagnostics)
     *text += "doubtful: " + diagnostic + "\n";
@@ -99,7 +181,7 @@ void append_materials(JsonWriter* json, const std::vector<MaterialReport>& mater
 }
 
 void append_json(std::string* text, const std::string& scene, const SceneReport& report,
-                 const std::vector<ParameterValue>& parameters) {
+                 const std::vector<ParameterValue>& parameters, const SolutionReport* solution) {
   JsonWriter json(text);
   json.begin_object();
   json.field("version", hrad_version_text());
@@ -124,6 +206,7 @@ void append_json(std::string* text, const std::string& scene, const SceneReport&
     json.end();
   }
   json.end();
+  if (solution != nullptr) append_solution(&json, *solution);
   json.begin_array("diagnostics");
   for (const std::string& diagnostic : report.diagnostics) json.value(diagnostic);
   json.end();
@@ -135,9 +218,11 @@ void append_json(std::string* text, const std::string& scene, const SceneReport&
 int run_info(const std::vector<std::string>& arguments, Output* output) {
   RunOptions options;
   bool as_json = false;
-  Arguments parser("info", "Print what is in a scene and what is doubtful in it, without solving it.",
+  Arguments parser("info",
+                   "Print what is in a scene and what is doubtful in it, without solving it.",
                    "Areas count one side of each patch; a * marks parameters that differ from "
-                   "their default.\n\nExample: hrad info room.obj --json");
+                   "their default. Of a .hrad file, also its solution is described.\n\n"
+                   "Example: hrad info room.obj --json");
   options.add_to(&parser, "info", RunOptions::a_scene);
   parser.add_flag("--json", &as_json, "Print one JSON object");
   if (!parser.parse(arguments, &output->text())) return 0;
@@ -148,8 +233,12 @@ int run_info(const std::vector<std::string>& arguments, Output* output) {
   const std::string obstacle = session.inspect();
   SceneReport report = make_scene_report(&session);
   if (!obstacle.empty()) report.diagnostics.push_back("can't be solved: " + obstacle);
-  (as_json ? append_json : append_text)(&output->text(), options.scene(), report,
-                                        parameter_values(session));
+  SolutionReport solution;
+  const bool is_solution = options.scene_is_checkpoint();
+  if (is_solution) solution = make_solution_report(&session, options.scene());
+  const auto append = as_json ? static_cast<AppendReport*>(append_json) : append_text;
+  append(&output->text(), options.scene(), report, parameter_values(session),
+         is_solution ? &solution : nullptr);
   return 0;
 }
 

@@ -1,35 +1,59 @@
 // hrad solve. CLI: public headers only.
+#include "checkpointing.h"
 #include "command.h"
+#include "exit_code.h"
 #include "output_files.h"
 #include "run_options.h"
 #include "session.h"
 #include "solve_report.h"
 
 namespace hrad::cli {
+namespace {
+
+constexpr const char* notes =
+    "Powers are in W per band. When the accuracy is not reached within max_iterations,\n"
+    "the results are written and the exit code is 7.\n"
+    "\n"
+    "With --checkpoint, SIGINT, SIGTERM and SIGUSR1 stop the solve with a checkpoint and the exit\n"
+    "code 75, as the time limit does; the same command with --restart auto goes on. A second\n"
+    "SIGINT or SIGTERM stops at once. SIGUSR2 writes a checkpoint as soon as a sweep ends. A stop\n"
+    "while links are made or refined loses that stage alone.\n"
+    "\n"
+    "Examples: hrad solve room.obj --accuracy 0.01 -o room.vtu -o room.csv\n"
+    "          hrad solve room.obj --checkpoint room.hrad --restart auto --time-limit 1:55:00";
+
+}  // namespace
 
 int run_solve(const std::vector<std::string>& arguments, Output* output) {
   RunOptions options;
   OutputFiles files(OutputFiles::results);
+  CheckpointOptions checkpoints;
   bool as_json = false;
-  Arguments parser("solve", "Solve a scene, print a summary, write the result.",
-                   "Powers are in W per band. When the accuracy is not reached within "
-                   "max_iterations,\nthe results are written and the exit code is 7.\n\n"
-                   "Example: hrad solve room.obj --accuracy 0.01 -o room.vtu -o room.csv");
+  Arguments parser("solve", "Solve a scene, print a summary, write the result.", notes);
   options.add_to(&parser, "solve", RunOptions::a_scene);
   files.add_to(&parser, "solve");
+  checkpoints.add_to(&parser);
   parser.add_flag("--json", &as_json, "Print one JSON object instead of the summary");
   if (!parser.parse(arguments, &output->text())) return 0;
   options.check();
   files.check(options.scene_is_file() ? options.scene() : "");
+  const CheckpointPlan plan = checkpoints.check(options, files);
 
-  Session session(options);
-  session.load();
-  const int code = session.solve();
-  const double seconds_output = files.write(&session);
-  const SolveReport report =
-      make_report(&session, options.scene(), code, files.paths(), seconds_output);
-  (as_json ? append_json : append_summary)(&output->text(), report);
-  return code;
+  Session session(options, true);
+  Checkpointing checkpointing(&session, plan);
+  try {
+    session.load();
+    checkpointing.begin();
+    const int code = checkpointing.solve();
+    const double seconds_output = files.write(&session);
+    const SolveReport report =
+        make_report(&session, options.scene(), code, files.paths(), seconds_output);
+    (as_json ? append_json : append_summary)(&output->text(), report);
+    return code;
+  } catch (const Interrupted& interrupted) {
+    checkpointing.end_by_signal(interrupted.signal);
+    throw;
+  }
 }
 
 }  // namespace hrad::cli

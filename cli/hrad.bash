@@ -1,14 +1,16 @@
 # Completion of hrad for bash: commands, their options, parameter names and the words they take.
 # A test compares the lists with `hrad --help`, `hrad COMMAND --help` and `hrad params`.
 
-_hrad_commands='solve export render query info partition scene machine params'
+_hrad_commands='solve export render query info check partition scene machine params'
 _hrad_run_options='--help --accuracy --threads --set --two-sided --flip --mpi --quiet --verbose'
 _hrad_params='bands accuracy linking detail oracle bf_epsilon min_area tolerance max_iterations refine seed
-  unit visibility sides threads smt bind partition max_memory instruction_set'
+  unit visibility sides threads smt bind partition max_memory checkpoint_keep instruction_set'
 
 _hrad_options() {  # of a command
   case $1 in
-    solve) echo "$_hrad_run_options --output --json" ;;
+    solve)
+      echo "$_hrad_run_options --output --json --checkpoint --checkpoint-interval" \
+        "--checkpoint-keep --restart --time-limit" ;;
     export) echo "$_hrad_run_options --output" ;;
     render)
       echo "$_hrad_run_options --output --size --eye --look --up --fov --exposure --false-colour" \
@@ -17,6 +19,7 @@ _hrad_options() {  # of a command
       echo "$_hrad_run_options --patches --at --sensors --grid --quantity --output --json --csv" ;;
     info | machine) echo "$_hrad_run_options --json" ;;
     partition) echo "$_hrad_run_options --ranks --method --output --json" ;;
+    check) echo '--help' ;;
     scene) echo '--help --output --list' ;;
     params) echo '--help --json' ;;
     *) echo '--help --version' ;;
@@ -58,11 +61,18 @@ _hrad() {
         scene) _hrad_files 'obj' "$word" ;;
         render | query) _hrad_files 'png' "$word" ;;
         partition) _hrad_files 'vtu' "$word" ;;
-        *) _hrad_files 'csv|vtu|ply|glb|png' "$word" ;;
+        *) _hrad_files 'hrad|csv|vtu|ply|glb|png' "$word" ;;
       esac
       return
       ;;
-    --accuracy | --threads | -n | --ranks | --at | --grid | --size | --eye | --look | --up | --fov | --exposure | \
+    --checkpoint) _hrad_files 'hrad' "$word"; return ;;
+    --restart)
+      _hrad_files 'hrad' "$word"
+      [[ auto == "$word"* ]] && COMPREPLY+=(auto)
+      return
+      ;;
+    --accuracy | --checkpoint-interval | --checkpoint-keep | --time-limit | --threads | -n | --ranks | \
+      --at | --grid | --size | --eye | --look | --up | --fov | --exposure | \
       --range) return ;;
   esac
   if [[ $word == -* ]]; then
@@ -71,12 +81,13 @@ _hrad() {
   fi
   case $command in
     solve | export | render | query | info | partition)
-      _hrad_files 'obj' "$word"
+      _hrad_files 'obj|hrad' "$word"
       local files=("${COMPREPLY[@]}")
       _hrad_words "$(hrad scene --list 2>/dev/null)" "$word"
       if ((${#files[@]} == 0)); then compopt +o nospace 2>/dev/null; fi
       COMPREPLY+=("${files[@]}")
       ;;
+    check) _hrad_files 'hrad' "$word" ;;
     scene) _hrad_words "$(hrad scene --list 2>/dev/null)" "$word" ;;
   esac
 }

@@ -19,8 +19,7 @@ namespace {
 
 std::string help_text() {
   TextTable table("ll");
-  for (const Command& command : commands)
-    if (command.run != nullptr) table.add_row({command.name, command.summary});
+  for (const Command& command : commands) table.add_row({command.name, command.summary});
   return std::string("hrad ") + hrad_version_text() +
          ": hierarchical radiosity of diffuse surfaces\n"
          "Usage: hrad COMMAND [ARGUMENTS]\n"
@@ -41,7 +40,7 @@ std::string help_text() {
 std::string command_names() {
   std::string names;
   for (const Command& command : commands)
-    if (command.run != nullptr) names += (names.empty() ? "" : ", ") + std::string(command.name);
+    names += (names.empty() ? "" : ", ") + std::string(command.name);
   return names;
 }
 
@@ -58,9 +57,6 @@ int run(const std::vector<std::string>& arguments, Output* output) {
   }
   for (const Command& command : commands) {
     if (name != command.name) continue;
-    if (command.run == nullptr)
-      throw Failure(exit_usage, "'" + name + "' is not in this version",
-                    "commands: " + command_names());
     return command.run({arguments.begin() + 1, arguments.end()}, output);
   }
   if (name[0] == '-') fail_usage("", "unknown option '" + name + "'");

@@ -19,15 +19,14 @@ namespace {
 struct Format {
   const char* ending;
   OutputFiles::Kind kind;
-  bool in_this_version;
 };
 
 constexpr Format formats[] = {
-    {".csv", OutputFiles::results, true},    {".vtu", OutputFiles::results, true},
-    {".ply", OutputFiles::results, true},    {".glb", OutputFiles::results, true},
-    {".png", OutputFiles::results, true},    {".png", OutputFiles::pictures, true},
-    {".hrad", OutputFiles::results, false},  {".obj", OutputFiles::scenes, true},
-    {".vtu", OutputFiles::partitions, true},
+    {".hrad", OutputFiles::results},   {".csv", OutputFiles::results},
+    {".vtu", OutputFiles::results},    {".ply", OutputFiles::results},
+    {".glb", OutputFiles::results},    {".png", OutputFiles::results},
+    {".png", OutputFiles::pictures},   {".obj", OutputFiles::scenes},
+    {".vtu", OutputFiles::partitions},
 };
 
 const char* content_of(OutputFiles::Kind kind) {
@@ -54,12 +53,12 @@ std::string ending_of(const std::string& path) {
 }
 
 bool is_picture(const std::string& path) { return ending_of(path) == ".png"; }
+bool is_checkpoint(const std::string& path) { return ending_of(path) == ".hrad"; }
 
 std::string known_endings(OutputFiles::Kind kind) {
   std::string endings;
   for (const Format& format : formats)
-    if (format.kind == kind && format.in_this_version)
-      endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
+    if (format.kind == kind) endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
   return endings;
 }
 
@@ -79,15 +78,14 @@ void check_ending(const std::string& path, OutputFiles::Kind kind) {
                   "-o " + path + ": a " + ending + " file holds " + content_of(known->kind) +
                       ", not " + content_of(kind),
                   hint);
-  if (!known->in_this_version)
-    throw Failure(exit_usage, "-o " + path + ": this version doesn't write " + ending + " files",
-                  hint);
   if (is_picture(path)) require_png(path);
 }
 
 [[noreturn]] void fail_to_write(const std::string& path, const std::string& reason) {
   throw Failure(exit_input_output, "can't write '" + path + "': " + reason);
 }
+
+}  // namespace
 
 void check_place(const std::string& path) {
   struct stat status {};
@@ -119,12 +117,15 @@ bool same_file(const std::string& one, const std::string& other) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-}  // namespace
-
 void OutputFiles::add_to(Arguments* arguments, const std::string& command) {
   command_ = command;
   arguments->add_list("-o,--output", "FILE", &paths_,
                       "Write this file; its ending tells the format: " + known_endings(kind_));
+}
+
+void OutputFiles::check_other(const std::string& other, const std::string& what) const {
+  for (const std::string& path : paths_)
+    if (same_file(path, other)) fail_usage(command_, "-o " + path + " would write over " + what);
 }
 
 void OutputFiles::check(const std::string& input_file) const {
@@ -144,6 +145,8 @@ double OutputFiles::write(Session* session) const {
   for (const std::string& path : paths_) {
     if (is_picture(path))
       write_png(make_automatic_picture(session), path);
+    else if (is_checkpoint(path))
+      session->write_result(path);
     else
       hrad::cli::check(hrad_export(session->solver(), path.c_str()));
     signals::check();

@@ -40,7 +40,8 @@ void RunOptions::add_to(Arguments* arguments, const std::string& command, Takes 
   takes_ = takes;
   if (takes == a_scene)
     arguments->add_positional("SCENE", &scene_,
-                              "An OBJ file, or the name of a built-in scene (hrad scene --list)");
+                              "An OBJ file, the name of a built-in scene (hrad scene --list), or a "
+                              "solution in a .hrad file");
   arguments->add_option("--accuracy", "X", &accuracy_,
                         "Relative error of patch means to reach (parameter accuracy)");
   arguments->add_option("--threads", "N", &threads_,
@@ -55,20 +56,9 @@ void RunOptions::add_to(Arguments* arguments, const std::string& command, Takes 
   arguments->add_flag("-q,--quiet", &quiet_, "Say nothing on stderr but errors");
   arguments->add_flag("-v,--verbose", &verbose_, "Say on stderr what is being done");
   arguments->exclude("--quiet", "--verbose");
-  arguments->add_hidden_option("--checkpoint", &checkpoint_);
-  arguments->add_hidden_option("--checkpoint-interval", &checkpoint_interval_);
-  arguments->add_hidden_option("--checkpoint-keep", &checkpoint_keep_);
-  arguments->add_hidden_option("--restart", &restart_);
-  arguments->add_hidden_option("--time-limit", &time_limit_);
 }
 
 void RunOptions::check() const {
-  for (const auto* option :
-       {&checkpoint_, &checkpoint_interval_, &checkpoint_keep_, &restart_, &time_limit_})
-    if (option->has_value())
-      throw Failure(exit_usage,
-                    "this version has no checkpoint files: --checkpoint, --restart and "
-                    "--time-limit don't work yet");
   std::set<std::string> names;
   for (const auto& item : parameters())
     if (!names.insert(item.first).second)
@@ -78,9 +68,6 @@ void RunOptions::check() const {
 }
 
 void RunOptions::check_scene() const {
-  if (ends_with(scene_, ".hrad"))
-    throw Failure(exit_usage, "'" + scene_ + "': this version has no .hrad files",
-                  "name an OBJ file or a built-in scene");
   if (!scene_is_file() && !is_builtin_scene(scene_))
     throw Failure(exit_scene, "'" + scene_ + "' is neither a file nor a built-in scene",
                   "built-in scenes: " + builtin_scene_names());
@@ -99,10 +86,13 @@ void RunOptions::check_launcher() const {
                   "start one process, or say --mpi off if that is what you want");
 }
 
+bool RunOptions::scene_is_checkpoint() const { return ends_with(scene_, ".hrad"); }
+
 bool RunOptions::scene_is_file() const {
   // A built-in name means the built-in scene wherever one works; ./NAME is the file.
   if (is_builtin_scene(scene_)) return false;
-  return ends_with(scene_, ".obj") || scene_.find('/') != std::string::npos || exists(scene_);
+  return ends_with(scene_, ".obj") || scene_is_checkpoint() ||
+         scene_.find('/') != std::string::npos || exists(scene_);
 }
 
 Verbosity RunOptions::verbosity() const {

@@ -22,6 +22,7 @@ class RunOptions {
 
   const std::string& scene() const { return scene_; }
   bool scene_is_file() const;
+  bool scene_is_checkpoint() const;  // a .hrad file, which is a file too
   Verbosity verbosity() const;
   // Names and values for hrad_set_text, in the order of the table of options.
   std::vector<std::pair<std::string, std::string>> parameters() const;
@@ -34,8 +35,6 @@ class RunOptions {
   Takes takes_ = no_scene;
   std::string scene_;
   std::optional<std::string> accuracy_, threads_, mpi_;
-  std::optional<std::string> checkpoint_, checkpoint_interval_, checkpoint_keep_, restart_,
-      time_limit_;
   std::vector<std::string> set_;
   bool two_sided_ = false, flip_ = false, quiet_ = false, verbose_ = false;
 };

@@ -57,8 +57,14 @@ std::vector<hrad_param> parameter_table() {
   return rows;
 }
 
-Session::Session(const RunOptions& options)
-    : options_(options), terminal_(options.verbosity()), progress_(&terminal_) {
+bool is_result_parameter(const std::string& name) {
+  for (const hrad_param& row : parameter_table())
+    if (name == row.name) return row.is_result != 0;
+  return false;
+}
+
+Session::Session(const RunOptions& options, bool goes_on)
+    : options_(options), goes_on_(goes_on), terminal_(options.verbosity()), progress_(&terminal_) {
   check(hrad_create(&solver_));
   try {
     const int32_t level = terminal_.verbosity() == Verbosity::quiet     ? HRAD_LOG_ERROR
@@ -66,8 +72,7 @@ Session::Session(const RunOptions& options)
                                                                         : HRAD_LOG_WARNING;
     check(hrad_set_log(solver_, log, this, level));
     check(hrad_set_progress(solver_, show_progress, this));
-    for (const auto& [name, value] : options_.parameters())
-      check(hrad_set_text(solver_, name.c_str(), value.c_str()));
+    set_parameters(!options_.scene_is_checkpoint());
   } catch (...) {
     hrad_destroy(&solver_);
     throw;
@@ -76,17 +81,53 @@ Session::Session(const RunOptions& options)
 
 Session::~Session() { hrad_destroy(&solver_); }
 
+// Result parameters of a solution in a file come with it.
+void Session::set_parameters(bool result_too) {
+  for (const auto& [name, value] : options_.parameters())
+    if (result_too || !is_result_parameter(name))
+      check(hrad_set_text(solver_, name.c_str(), value.c_str()));
+}
+
 void Session::load() {
   const std::string& scene = options_.scene();
-  const hrad_status status = options_.scene_is_file() ? hrad_load_scene(solver_, scene.c_str())
-                                                      : hrad_make_scene(solver_, scene.c_str());
-  // The one thing that can be out of order here is a parameter that doesn't suit the scene.
-  if (status == HRAD_ERROR_STATE) throw Failure(exit_usage, hrad_error_message());
-  check(status);
+  if (options_.scene_is_checkpoint()) {
+    check(hrad_read_checkpoint(solver_, scene.c_str()));
+    agree_with_file(scene);
+  } else {
+    const hrad_status status = options_.scene_is_file() ? hrad_load_scene(solver_, scene.c_str())
+                                                        : hrad_make_scene(solver_, scene.c_str());
+    // The one thing that can be out of order here is a parameter that doesn't suit the scene.
+    if (status == HRAD_ERROR_STATE) throw Failure(exit_usage, hrad_error_message());
+    check(status);
+  }
   signals::check();
   warn_of_diagnostics();
   if (terminal_.verbosity() == Verbosity::verbose)
     terminal_.say("loaded " + scene + ": " + std::to_string(patches()) + " patches");
+}
+
+void Session::restart(const std::string& path) {
+  const hrad_status status = hrad_read_checkpoint(solver_, path.c_str());
+  if (status == HRAD_ERROR_STATE) throw Failure(exit_checkpoint, hrad_error_message());
+  check(status);
+  agree_with_file(path);
+  if (terminal_.verbosity() != Verbosity::quiet) terminal_.say("going on from " + path);
+}
+
+// The options' result parameters, now that those of the file hold.
+void Session::agree_with_file(const std::string& path) {
+  for (const auto& [name, value] : options_.parameters()) {
+    const std::string before = parameter(name.c_str());
+    const hrad_status status = hrad_set_text(solver_, name.c_str(), value.c_str());
+    if (status == HRAD_ERROR_STATE)
+      throw Failure(exit_usage, path + ": " + hrad_error_message(),
+                    "leave the parameter out to go on with that of the file");
+    check(status);
+    if (!goes_on_ && is_result_parameter(name) && before != parameter(name.c_str()))
+      throw Failure(exit_usage,
+                    path + " was solved with " + name + " = " + before + ", not " + value,
+                    "'hrad solve " + path + "' can solve it further");
+  }
 }
 
 std::string Session::inspect() {
@@ -98,15 +139,27 @@ std::string Session::inspect() {
   return "";
 }
 
-int Session::solve() {
+hrad_status Session::solve_until(const StopTest& stops) {
   hrad_status status = HRAD_OK;
   {
+    stops_ = stops;
     signals::Watch watch(solver_);
     status = hrad_solve(solver_);
+    stops_ = nullptr;
   }
   terminal_.clear_line();
-  signals::check();
   check(status);
+  return status;
+}
+
+int Session::solve() {
+  if (options_.scene_is_checkpoint() && !goes_on_) return take_as_it_is();
+  const hrad_status status = solve_until(nullptr);
+  signals::check();
+  return conclude(status);
+}
+
+int Session::conclude(hrad_status status) {
   if (status == HRAD_STOPPED) throw Failure(exit_internal, "the solve stopped unasked");
   warn_of_diagnostics();
   if (status == HRAD_NOT_CONVERGED && terminal_.verbosity() != Verbosity::quiet)
@@ -114,6 +167,33 @@ int Session::solve() {
         "warning: not converged: the accuracy asked for was not reached (more --set "
         "max_iterations, or a larger --accuracy)");
   return exit_code_of(status);
+}
+
+// The solution of a .hrad file, finished or not.
+int Session::take_as_it_is() {
+  const std::string& path = options_.scene();
+  int64_t leaves = 0;
+  if (hrad_leaf_count(solver_, &leaves) == HRAD_ERROR_STATE)
+    throw Failure(exit_checkpoint, path + " holds no solution yet: its solve was stopped before",
+                  "'hrad solve " + path + "' goes on with it");
+  hrad_stats stats{};
+  stats.struct_size = sizeof stats;
+  check(hrad_get_stats(solver_, &stats));
+  if (stats.converged != 0) return exit_done;
+  if (terminal_.verbosity() != Verbosity::quiet)
+    terminal_.say("warning: " + path +
+                  " holds a solution that has not converged ('hrad solve' goes on with it)");
+  return exit_not_converged;
+}
+
+void Session::write_result(const std::string& path) {
+  int64_t keep = 0;
+  check(hrad_get_int(solver_, "checkpoint_keep", &keep));
+  check(hrad_set_int(solver_, "checkpoint_keep", 0));
+  const hrad_status status = hrad_write_checkpoint(solver_, path.c_str());
+  const std::string message = status < 0 ? hrad_error_message() : "";
+  check(hrad_set_int(solver_, "checkpoint_keep", keep));
+  if (status < 0) throw Failure(exit_code_of(status), message);
 }
 
 int64_t Session::bands() const {
@@ -172,8 +252,10 @@ void Session::log(int32_t level, const char* message, void* user) {
 }
 
 int32_t Session::show_progress(const hrad_progress* progress, void* user) {
+  auto* session = static_cast<Session*>(user);
   try {
-    static_cast<Session*>(user)->progress_.show(*progress);
+    session->progress_.show(*progress);
+    if (session->stops_ && session->stops_(*progress)) return 1;
   } catch (...) {
     return 1;
   }

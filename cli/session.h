@@ -16,7 +16,8 @@ namespace hrad::cli {
 
 class Session {
  public:
-  explicit Session(const RunOptions& options);
+  // goes_on: a solution in a .hrad file may be solved further, else it is taken as it is.
+  explicit Session(const RunOptions& options, bool goes_on = false);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -24,11 +25,21 @@ class Session {
   hrad_solver* solver() const { return solver_; }
   Terminal& terminal() { return terminal_; }
 
-  void load();  // the options' scene
+  void load();  // the options' scene, or the solution of a .hrad file
+  // A checkpoint of the scene that was loaded; the options' parameters must agree with it. Failure
+  // (checkpoint, usage).
+  void restart(const std::string& path);
   // The Initial Stage, for what only rays find out about a scene: "", or why it can't be solved.
   std::string inspect();
   // exit_done or exit_not_converged; Interrupted when a signal stopped it.
   int solve();
+  // For who stops and goes on: one call of hrad_solve. stops: asked with every progress.
+  using StopTest = std::function<bool(const hrad_progress&)>;
+  hrad_status solve_until(const StopTest& stops);
+  // What there is to say at the end of a solve, and its exit code.
+  int conclude(hrad_status status);
+  // A solution as a file of its own: no older ones are kept.
+  void write_result(const std::string& path);
 
   bool scene_is_file() const { return options_.scene_is_file(); }
   int64_t bands() const;
@@ -40,8 +51,13 @@ class Session {
   static void log(int32_t level, const char* message, void* user);
   static int32_t show_progress(const hrad_progress* progress, void* user);
   void warn_of_diagnostics();
+  void set_parameters(bool result_too);
+  void agree_with_file(const std::string& path);
+  int take_as_it_is();
 
   RunOptions options_;
+  const bool goes_on_;
+  StopTest stops_;
   Terminal terminal_;
   Progress progress_;
   hrad_solver* solver_ = nullptr;
@@ -58,5 +74,7 @@ std::string fetch_text(const TextFunction& function);
 
 // All rows of the table of parameters.
 std::vector<hrad_param> parameter_table();
+// Whether it decides the bits of a result; false where there is no such parameter.
+bool is_result_parameter(const std::string& name);
 
 }  // namespace hrad::cli

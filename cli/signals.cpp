@@ -16,6 +16,7 @@ namespace {
 std::atomic<int> first_signal{0};
 std::atomic<int> urgent_signals{0};  // SIGINT and SIGTERM so far
 std::atomic<int> handlers_running{0};
+std::atomic<int> checkpoints_wanted{0};
 std::atomic<hrad_solver*> watched{nullptr};
 bool line_may_stand = false;  // stderr is a terminal: a progress line may stand there
 
@@ -36,6 +37,8 @@ void handle(int number) {
   handlers_running.fetch_sub(1);
 }
 
+void note_checkpoint(int) { checkpoints_wanted.store(1); }
+
 }  // namespace
 
 void install() {
@@ -45,11 +48,14 @@ void install() {
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   for (int number : {SIGINT, SIGTERM, SIGUSR1}) ::sigaction(number, &action, nullptr);
-  // SIGUSR2 asks for a checkpoint and must not end a solve where there is none to write.
-  ::signal(SIGUSR2, SIG_IGN);
+  // It must not end a solve where there is no checkpoint to write.
+  action.sa_handler = note_checkpoint;
+  ::sigaction(SIGUSR2, &action, nullptr);
 }
 
 int pending() { return first_signal.load(); }
+
+bool take_checkpoint_request() { return checkpoints_wanted.exchange(0) != 0; }
 
 void check() {
   if (pending() != 0) throw Interrupted{pending()};

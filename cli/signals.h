@@ -1,5 +1,5 @@
 // SIGINT, SIGTERM and SIGUSR1 ask for a stop at the next safe point; a second SIGINT or SIGTERM
-// ends the process at once. CLI: public headers only.
+// ends the process at once. SIGUSR2 asks for a checkpoint. CLI: public headers only.
 #pragma once
 
 #include "hrad/hrad.h"
@@ -12,6 +12,9 @@ void install();
 int pending();
 // Throws Interrupted when a signal asked for a stop: called wherever a command may end.
 void check();
+
+// Whether SIGUSR2 came since the last time; it is not kept.
+bool take_checkpoint_request();
 
 // While it lives, a signal also stops the solver's solve.
 class Watch {

@@ -39,15 +39,17 @@ fuzz() {
     echo "No clang with libFuzzer: the fuzz targets are left out, their corpus was replayed." >&2
     return
   fi
-  local generator=(-G Ninja) source target
+  local generator=(-G Ninja) source target dictionary
   if [[ -f build-fuzz/CMakeCache.txt ]]; then generator=(); fi
   cmake --preset fuzz -B build-fuzz "${generator[@]}" -DHRAD_TESTS=ON
   for source in tests/fuzz/fuzz_*.cpp; do
     target=$(basename "$source" .cpp)
     cmake --build build-fuzz --parallel "$(nproc)" --target "$target"
     mkdir -p "build-fuzz/corpus/$target"
+    dictionary=tests/fuzz/obj.dict
+    if [[ $target == fuzz_hrad ]]; then dictionary=tests/fuzz/hrad.dict; fi
     build-fuzz/tests/"$target" -max_total_time="$1" -timeout=60 -rss_limit_mb=3000 \
-      -dict=tests/fuzz/obj.dict -artifact_prefix="build-fuzz/$target-" -print_final_stats=1 \
+      -dict="$dictionary" -artifact_prefix="build-fuzz/$target-" -print_final_stats=1 \
       "build-fuzz/corpus/$target" "tests/fuzz/corpus/${target#fuzz_}"
   done
 }

@@ -5,7 +5,8 @@
 #   bash tests/setup.sh tests   and what the tests need besides
 set -euo pipefail
 
-packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev libpng-dev)
+packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev libpng-dev
+  zlib1g-dev)
 optional=()
 case "${1:-build}" in
   build) ;;
@@ -17,6 +18,8 @@ case "${1:-build}" in
     optional+=(gfortran)
     # Its libFuzzer looks for input that breaks the readers and the C interface.
     optional+=(clang)
+    # Checks the manual pages.
+    optional+=(mandoc)
     ;;
   *)
     echo "usage: bash tests/setup.sh [build|tests]" >&2
@@ -26,7 +29,7 @@ esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "This is no Debian system: make sure that there are a C++17 compiler, cmake, ninja," \
-    "pkg-config, hwloc, CLI11 and, for pictures, libpng (for the tests also cmocka and python3)." >&2
+    "pkg-config, hwloc, zlib, CLI11 and, for pictures, libpng (for the tests also cmocka and python3)." >&2
   exit 0
 fi
 

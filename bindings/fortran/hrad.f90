@@ -35,7 +35,7 @@
 !
 ! CALLBACKS are module procedures with the interface hrad_log_procedure or hrad_progress_procedure.
 ! A context of any type is handed on to them. They must not call procedures of the solver that
-! called them, except hrad_request_stop.
+! called them, except hrad_request_stop, and hrad_write_checkpoint in the progress callback.
 !
 ! OTHER COMPILERS: compile the sources in the order hrad_constants, hrad_types, hrad_text,
 ! hrad_errors, hrad_c_setup, hrad_c_results, hrad_checks, then the others, and this one last; with
@@ -45,7 +45,8 @@ module hrad
   use hrad_constants
   use hrad_creation, only: hrad_create, hrad_destroy, hrad_set_log
   use hrad_errors, only: hrad_error_message, hrad_status_name, hrad_version, hrad_version_text
-  use hrad_files, only: hrad_export, hrad_read_checkpoint, hrad_write_checkpoint
+  use hrad_files, only: hrad_describe_checkpoint, hrad_export, hrad_lock_checkpoint, &
+    hrad_read_checkpoint, hrad_write_checkpoint
   use hrad_leaves, only: hrad_leaf_count, hrad_query_leaves
   use hrad_parameters, only: hrad_describe_param, hrad_get_double, hrad_get_int, hrad_get_text, &
     hrad_set_double, hrad_set_int, hrad_set_text

@@ -114,12 +114,29 @@ module hrad_c_results
       integer(c_int32_t) :: status
     end function c_write_checkpoint
 
+    function c_lock_checkpoint(solver, path) bind(c, name="hrad_lock_checkpoint") result(status)
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), value :: solver
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_lock_checkpoint
+
     function c_read_checkpoint(solver, path) bind(c, name="hrad_read_checkpoint") result(status)
       import :: c_char, c_int32_t, c_ptr
       type(c_ptr), value :: solver
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: status
     end function c_read_checkpoint
+
+    function c_describe_checkpoint(path, text, size, needed) &
+      bind(c, name="hrad_describe_checkpoint") result(status)
+      import :: c_char, c_int32_t, c_int64_t
+      character(kind=c_char), intent(in) :: path(*)
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_int64_t), value :: size
+      integer(c_int64_t), intent(inout) :: needed
+      integer(c_int32_t) :: status
+    end function c_describe_checkpoint
 
     function c_export(solver, path) bind(c, name="hrad_export") result(status)
       import :: c_char, c_int32_t, c_ptr

@@ -62,8 +62,8 @@
  *
  * THREADS. Different solvers may be used from different threads at the same time. One solver is
  * used by one thread at a time; only hrad_request_stop may be called on it from anywhere. Callbacks
- * must not call functions of the solver that called them, except hrad_request_stop: those answer
- * HRAD_ERROR_STATE.
+ * must not call functions of the solver that called them, which answer HRAD_ERROR_STATE, except
+ * hrad_request_stop, and hrad_write_checkpoint in the progress callback.
  *
  * [C] marks collective functions: all ranks of the solver's communicator call them in the same
  * order. [L] marks local ones. A solver made by hrad_create has one rank.
@@ -428,9 +428,39 @@ HRAD_API hrad_status hrad_power_balance(const hrad_solver *solver, double *emitt
 
 /* ---- files ----------------------------------------------------------------------------------- */
 
-/* [C] Checkpoints: not in this version, both answer UNSUPPORTED. */
+/* A checkpoint (.hrad) holds scene, result parameters, mesh, links, light, measurements and how far the
+ * solve has come; hrad-checkpoint(5) describes the bytes. It does not depend on the number of threads,
+ * nor on time or machine. */
+
+/* [C] Writes a checkpoint at any time between other calls (of a solver with a scene alone, after a
+ * solve, or after one that was stopped) and from the progress callback of a solve, which then goes on.
+ * A solve that goes on from it repeats what was under way where that was linking or a round of
+ * refinement; between sweeps nothing is lost. The file appears whole
+ * under its name or not at all; what was there before stays as PATH.prev, and older ones as PATH.prev2
+ * and so on, as the parameter checkpoint_keep says (0: none). While it is written PATH.lock keeps
+ * other writers away. Errors: FILE (what failed; the old file is whole), also when another process
+ * holds the lock. */
 HRAD_API hrad_status hrad_write_checkpoint(hrad_solver *solver, const char *path);
+
+/* [C] Locks a checkpoint against other writers, in this and in other processes, before it is first
+ * written and until the solver locks another one or is destroyed. Errors: FILE when it is locked
+ * already or PATH.lock can't be made. */
+HRAD_API hrad_status hrad_lock_checkpoint(hrad_solver *solver, const char *path);
+
+/* [C] Reads a checkpoint: the solver is then as the one that wrote it was, with the same hash, and
+ * hrad_solve goes on to the same bits as without a stop. The result parameters become those of the file,
+ * the run parameters stay. A solver that has patches must have the same scene: this is how a program
+ * makes sure that a file belongs to its scene. Everything in the file is checked before it is used.
+ * Errors: FILE; FORMAT for a file that is damaged or none of these, with section and byte; STATE for
+ * another scene, with the first difference; MEMORY when it holds more than max_memory. The solver is
+ * then as it was. */
 HRAD_API hrad_status hrad_read_checkpoint(hrad_solver *solver, const char *path);
+
+/* [L] Checks a whole checkpoint as reading does, without a solver, and describes it as text, one
+ * `name: value` a line: what wrote it, sizes, how far the solve has come, bytes of each section.
+ * Errors: as for hrad_read_checkpoint. */
+HRAD_API hrad_status hrad_describe_checkpoint(const char *path, char *text, int64_t size,
+                                              int64_t *needed);
 
 /* [C] Writes the solution in the format of the path's ending: .csv (one row per leaf: patch, face, side,
  * corners, area, mean radiosity per band), .vtu (VTK unstructured grid), .ply (polygon file) or .glb

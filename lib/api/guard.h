@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <thread>
 #include <type_traits>
 
 #include "base/error.h"
@@ -23,6 +24,9 @@ struct hrad_solver {
 
   // hrad_solve is at work: a callback that throws stops it at the next safe point.
   bool solving = false;
+  // It is waiting for the progress function, on the thread that runs that.
+  std::atomic<bool> reporting{false};
+  std::thread::id reporting_thread;
   const char* callback_that_threw = nullptr;
 };
 

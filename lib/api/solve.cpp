@@ -4,6 +4,21 @@
 
 namespace {
 
+// While the user's function is asked.
+class Reporting {
+ public:
+  explicit Reporting(hrad_solver* handle) : handle_(handle) {
+    handle_->reporting_thread = std::this_thread::get_id();
+    handle_->reporting = true;
+  }
+  ~Reporting() { handle_->reporting = false; }
+  Reporting(const Reporting&) = delete;
+  Reporting& operator=(const Reporting&) = delete;
+
+ private:
+  hrad_solver* handle_;
+};
+
 // Hands progress to the user's function: true to go on. A function that throws stops the solve.
 bool forward_progress(hrad_solver* handle, const hrad::Progress& from) {
   hrad_progress progress = {};
@@ -13,6 +28,7 @@ bool forward_progress(hrad_solver* handle, const hrad::Progress& from) {
   progress.fraction = from.fraction;
   progress.seconds = from.seconds;
   progress.seconds_left = from.seconds_left;
+  const Reporting reporting(handle);
   try {
     return handle->progress(&progress, handle->progress_user) == 0;
   } catch (...) {

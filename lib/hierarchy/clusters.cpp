@@ -3,6 +3,7 @@
 #include "hierarchy/clusters.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/angle.h"
 #include "hierarchy/forest.h"
@@ -16,6 +17,8 @@ constexpr double large_share = 1.0 / 3;
 // Below so many levels clusters are halved by count: no scene makes the tree deeper than that and
 // the logarithm of its patches.
 constexpr int deepest_by_place = 48;
+// Normals and sizes halve their ranges at each level, so that none is as deep as this.
+constexpr int deepest = 2000;
 
 int longest_axis(Vec3 extent) {
   if (extent.x >= extent.y && extent.x >= extent.z) return 0;
@@ -31,6 +34,9 @@ struct Piece {
 
 class Builder {
  public:
+  // left: of the first child of every cluster, where that is known already.
+  Builder(Forest& forest, const std::vector<int32_t>* left)
+      : forest_(forest), tree_(forest.clusters), left_(left) {}
   Builder(Forest& forest, const std::vector<ClusterItem>& items)
       : forest_(forest),
         tree_(forest.clusters),
@@ -43,7 +49,8 @@ class Builder {
     }
   }
 
-  void build() {
+  // False: left is not that of a tree.
+  bool build() {
     std::vector<Piece> stack{{0, static_cast<int32_t>(tree_.order.size()), -1, 0, 0}};
     while (!stack.empty()) {
       const Piece piece = stack.back();
@@ -58,10 +65,12 @@ class Builder {
       if (piece.count == 1) continue;
       const Cluster cluster = bounds_of(piece);
       tree_.clusters.push_back(cluster);
-      const int32_t left = divide(piece, cluster);
+      const int32_t left = left_ ? (*left_)[number] : divide(piece, cluster);
+      if (left < 1 || left >= piece.count || piece.depth > deepest) return false;
       stack.push_back({piece.first + left, piece.count - left, number, 1, piece.depth + 1});
       stack.push_back({piece.first, left, number, 0, piece.depth + 1});
     }
+    return true;
   }
 
  private:
@@ -143,6 +152,7 @@ class Builder {
   ClusterTree& tree_;
   std::vector<Vec3> centroid_;  // per surface
   std::vector<double> size_;    // radius around the centroid
+  const std::vector<int32_t>* left_ = nullptr;
 };
 
 }  // namespace
@@ -169,6 +179,12 @@ void add_clusters(Forest& forest, const std::vector<ClusterItem>& items) {
   }
   Builder(forest, items).build();
   measure_clusters(forest);
+}
+
+bool restore_clusters(Forest& forest, std::vector<int32_t> order,
+                      const std::vector<int32_t>& left) {
+  forest.clusters.order = std::move(order);
+  return Builder(forest, &left).build();
 }
 
 void measure_clusters(Forest& forest) {

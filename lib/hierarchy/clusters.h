@@ -52,6 +52,12 @@ struct ClusterItem {
 // The same over some of the surfaces.
 void add_clusters(Forest& forest, const std::vector<ClusterItem>& items);
 
+// Makes a tree again from its order of surfaces, which must name none twice, and of every cluster
+// in turn how many surfaces its first child has. The forest has the nodes of the clusters already.
+// False, and the tree is of no use, when there is no such tree or it is deeper than any that
+// add_clusters() makes.
+bool restore_clusters(Forest& forest, std::vector<int32_t> order, const std::vector<int32_t>& left);
+
 // Areas from the roots' present exposed shares.
 void measure_clusters(Forest& forest);
 

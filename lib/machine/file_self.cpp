@@ -44,7 +44,7 @@ WholeFile::WholeFile(const std::string& path) : path_(path), target_(path) {
   }
   buffer_.reserve(buffer_bytes);
   try {
-    create_temporary(folder_of(target_), mode);
+    create_temporary(mode);
   } catch (...) {
     discard();  // no destructor runs for what was not made
     throw;
@@ -56,18 +56,24 @@ WholeFile::~WholeFile() { discard(); }
 void WholeFile::discard() {
   if (file_ >= 0) ::close(file_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!second_name_.empty()) ::unlink(second_name_.c_str());
 }
 
 void WholeFile::fail_here(const char* step, int error) const {
   fail(Status::file, "%s: cannot %s: %s", path_.c_str(), step, std::strerror(error));
 }
 
+// A name of its own length: the target's may already be as long as the file system allows.
+std::string WholeFile::new_name(int attempt) const {
+  const std::string folder = folder_of(target_);
+  return folder + (folder.back() == '/' ? "" : "/") +
+         format(".hrad-%ld-%d.tmp", static_cast<long>(::getpid()), attempt);
+}
+
 // mode: that of the file to be replaced, 0 for a new file (the process's umask decides).
-void WholeFile::create_temporary(const std::string& folder, mode_t mode) {
+void WholeFile::create_temporary(mode_t mode) {
   for (int attempt = 0; attempt < name_attempts; ++attempt) {
-    // A name of its own length: the target's may already be as long as the file system allows.
-    std::string name = folder + (folder.back() == '/' ? "" : "/") +
-                       format(".hrad-%ld-%d.tmp", static_cast<long>(::getpid()), attempt);
+    std::string name = new_name(attempt);
     file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ >= 0) {
       temporary_ = std::move(name);  // without allocation: from here it is removed
@@ -99,6 +105,18 @@ void WholeFile::write(const void* data, size_t size) {
   buffer_.insert(buffer_.end(), bytes, bytes + size);
 }
 
+void WholeFile::write_at_start(const void* data, size_t size) {
+  write_out(buffer_.data(), buffer_.size());
+  buffer_.clear();
+  const char* bytes = static_cast<const char*>(data);
+  for (size_t done = 0; done < size;) {
+    const ssize_t written = ::pwrite(file_, bytes + done, size - done, static_cast<off_t>(done));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail_here("write", written < 0 ? errno : EIO);
+    done += static_cast<size_t>(written);
+  }
+}
+
 void WholeFile::finish() {
   if (file_ < 0) return;
   write_out(buffer_.data(), buffer_.size());
@@ -113,8 +131,67 @@ void WholeFile::finish() {
 
 void WholeFile::commit() {
   finish();
+  take_place();
+  synchronise_folder();
+}
+
+std::string WholeFile::name_of_older(int number) const {
+  return target_ + ".prev" + (number > 1 ? std::to_string(number) : "");
+}
+
+// False: there is no old file, or the file system knows no second names.
+bool WholeFile::keep_second_name() {
+  for (int attempt = 0; attempt < name_attempts; ++attempt) {
+    std::string name = new_name(attempt);
+    if (::link(target_.c_str(), name.c_str()) == 0) {
+      second_name_ = std::move(name);
+      return true;
+    }
+    if (errno == EEXIST || errno == EINTR) continue;
+    if (errno == ENOENT || errno == EPERM || errno == ENOTSUP || errno == ENOSYS || errno == EMLINK)
+      return false;
+    break;
+  }
+  fail_here("keep the old file", errno);
+}
+
+// Makes NAME.prev free.
+void WholeFile::move_older(int older) {
+  for (int number = older; number > 1; --number)
+    if (::rename(name_of_older(number - 1).c_str(), name_of_older(number).c_str()) != 0 &&
+        errno != ENOENT)
+      fail_here("keep the old file", errno);
+}
+
+void WholeFile::take_place() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_here("replace", errno);
   temporary_.clear();
+}
+
+void WholeFile::commit_keeping(int older) {
+  finish();
+  if (older < 1) return commit();
+  const std::string prev = name_of_older(1);
+  if (keep_second_name()) {
+    take_place();
+    move_older(older);
+    if (::rename(second_name_.c_str(), prev.c_str()) != 0) fail_here("keep the old file", errno);
+    second_name_.clear();
+  } else {
+    move_older(older);
+    const bool kept = ::rename(target_.c_str(), prev.c_str()) == 0;
+    if (!kept && errno != ENOENT) fail_here("keep the old file", errno);
+    try {
+      take_place();
+    } catch (...) {
+      if (kept) static_cast<void>(::rename(prev.c_str(), target_.c_str()));
+      throw;
+    }
+  }
+  synchronise_folder();
+}
+
+void WholeFile::synchronise_folder() const {
   // The new name must survive a crash too. From here the file is whole: a folder that can't be
   // synchronised is no failure of this write.
   const int folder =

@@ -23,18 +23,31 @@ class WholeFile {
 
   void write(const void* data, size_t size);
   void text(const std::string& text) { write(text.data(), text.size()); }
+  // Replaces the first bytes of what was written: for what is known at the end alone.
+  void write_at_start(const void* data, size_t size);
   // Writes everything out and closes the temporary: after it only the rename can fail. For several
   // files that belong together, finish all, then commit all.
   void finish();
   void commit();  // once, as the last call; finishes what is not
+  // The same, and the file that was there until now stays as NAME.prev, the one of that name as
+  // NAME.prev2, and so on: `older` of them. NAME is there all the time, where the file system knows
+  // second names.
+  void commit_keeping(int older);
 
  private:
   void discard();  // what is not committed
   [[noreturn]] void fail_here(const char* step, int error) const;
-  void create_temporary(const std::string& folder, mode_t mode);
+  void create_temporary(mode_t mode);
   void write_out(const char* data, size_t size);
+  std::string new_name(int attempt) const;
+  std::string name_of_older(int number) const;
+  bool keep_second_name();
+  void move_older(int older);
+  void take_place();
+  void synchronise_folder() const;
 
   std::string path_, target_, temporary_;  // target: path with links resolved
+  std::string second_name_;                // of the old file, for a while
   int file_ = -1;
   std::vector<char> buffer_;
 };

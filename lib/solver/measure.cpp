@@ -241,11 +241,17 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
   };
   std::vector<Sums> sums(tasks);
   constexpr int64_t rays_of_a_task = rays_of_the_balance / tasks;
+  // Leaves take their turns in order, so that the rays of each are a part of the sequence, spread
+  // evenly over it and its hemisphere.
+  const LowDiscrepancy sequence(mix(tools.oracle.seed, 0x706f776572u));
   tools.team.for_each(tasks, [&](int64_t task, int) {
     Sums& s = sums[task];
     for (int64_t k = 0; k < rays_of_a_task; ++k) {
       const int64_t number = task * rays_of_a_task + k;
       const uint64_t h = mix(tools.oracle.seed, static_cast<uint64_t>(number), 0x706f776572u);
+      double p[4], u, v;
+      sequence.point(static_cast<uint32_t>(number), p);
+      even_in_triangle(p[0], p[1], &u, &v);
       const double fraction = (static_cast<double>(number) + unit_interval(h)) /
                               static_cast<double>(rays_of_the_balance);
       const size_t pick = draw.pick(fraction);
@@ -253,14 +259,14 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
       const Node& node = forest.nodes[id];
       const Surface& surface = forest.surfaces[node.surface];
       const Triangle triangle = forest.triangle(node);
-      Vec3 on = point_of(triangle, h);
+      Vec3 on = triangle.at(u, v);
       // On a partly sealed leaf only exposed points send light.
       if (node.exposed < 1)
         for (uint64_t again = 1;
              again < 64 && tools.exposure.sealed(surface.patch, surface.side, on); ++again)
           on = point_of(triangle, mix(h, again));
       const Frame frame(surface.normal);
-      const Vec3 d = frame.cosine_direction(unit_interval(mix(h, 3)), unit_interval(mix(h, 4)));
+      const Vec3 d = frame.cosine_direction(p[2], p[3]);
       const Hit hit = tools.engine.nearest(on + surface.normal * tools.engine.offset(), d, 0);
       ++s.rays;
       const bool lost = hit.patch < 0;

@@ -123,8 +123,10 @@ class Solver::Run {
       solution_.rounds_done = std::min(solution_.rounds_done, first_rounds - 1);
     if (other_mesh || other_light)
       begin_from_emission(by_rows_ ? first_rounds : solution_.rounds_done);
-    // By rows it follows the light.
-    if (by_rows_ && (other_mesh || more_accurate)) {
+    // By rows it follows the light; and the method may be another for another accuracy.
+    const bool other_method = solution_.linked && state_.cells.empty() == by_rows_;
+    if (other_method) clear(state_);
+    if (other_method || (by_rows_ && (other_mesh || more_accurate))) {
       solution_.linked = solution_.sweeping = false;
       solution_.tightened = 0;
       solution_.scale = 1;
@@ -223,6 +225,7 @@ class Solver::Run {
       gather(state_, *solution_.team, space);
       solution_.converged = solution_.convergence.reached(push_pull(state_, *solution_.team));
       ++solver_.stats_.iterations;
+      solution_.sweeping = !solution_.converged && !out_of_sweeps();
       going_on = clock_.report(0.5, solver_.stats_.iterations);
     }
     solver_.stats_.seconds_iterative +=
@@ -277,9 +280,12 @@ Status Solver::solve() {
   begun_ = true;
   // A stop that was asked for before the solve began holds too.
   Status status;
+  solving_ = true;
   try {
     status = Run(*this).run();
+    solving_ = false;
   } catch (...) {
+    solving_ = false;
     // Half a round may be in place, and nothing of it can be trusted: back to the loaded scene.
     solution_.reset();
     begun_ = false;

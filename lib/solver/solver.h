@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/vec3.h"
+#include "machine/file_lock.h"
 #include "scene/scene.h"
 #include "solver/params.h"
 #include "solver/stats.h"
@@ -95,6 +96,15 @@ class Solver {
                      double* escaped) const;
 
   // files
+  // A lock that keeps other writers of this checkpoint away until another path is locked or the
+  // solver goes.
+  void lock_checkpoint(const std::string& path);
+  // Also from within the progress function: the state between two sweeps or before the round of
+  // refinement that is under way.
+  void write_checkpoint(const std::string& path);
+  // Replaces scene, result parameters and solution, or nothing of them. STATE: the solver has
+  // another scene.
+  void read_checkpoint(const std::string& path);
   void export_file(const std::string& path) const;
 
  private:
@@ -105,6 +115,7 @@ class Solver {
   Stats counts() const;  // stats() with what has been measured already
   const class Reconstruction& reconstruction() const;
   void require_open() const;  // the scene may still grow
+  void take_over(struct CheckpointContent& content);
 
   Params params_;
   Log log_;
@@ -113,8 +124,10 @@ class Solver {
   mutable Stats stats_;
   std::atomic<bool> stop_requested_{false};
   std::unique_ptr<Solution> solution_;  // from partition() on
-  bool begun_ =
-      false;  // solve() was entered with a valid scene: result parameters hold from then on
+  std::unique_ptr<FileLock> checkpoint_lock_;
+  // solve() was entered with a valid scene: result parameters hold from then on.
+  bool begun_ = false;
+  bool solving_ = false;  // the team is at work
 };
 
 }  // namespace hrad

@@ -2,6 +2,7 @@
 // iterations. Floor 7 (stages).
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace hrad {
@@ -16,6 +17,14 @@ class Convergence {
   // in every band. The change falls by a ratio q from sweep to sweep, so after a change d there is
   // d q/(1-q) to come: a small change alone proves nothing where reflectances are high.
   bool reached(const std::vector<double>& total);
+
+  // What it knows so far, to be kept in a file: the totals of the last iteration and by how much
+  // they had changed; empty before the first and the second one.
+  double tolerance() const { return tolerance_; }
+  const std::vector<double>& last() const { return last_; }
+  const std::vector<double>& change() const { return change_; }
+  Convergence(double tolerance, std::vector<double> last, std::vector<double> change)
+      : tolerance_(tolerance), last_(std::move(last)), change_(std::move(change)) {}
 
  private:
   double tolerance_;

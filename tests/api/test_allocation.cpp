@@ -91,12 +91,15 @@ class Program {
   // linking: by pairs with no smaller elements than the patches, for the solve is to be made a
   // thousand times; or another way, coarsely.
   explicit Program(const Folder& folder, const char* linking = "pairs")
-      : linking_(linking), scene_(folder.path + "/a.obj"), table_(folder.path + "/a.csv") {}
+      : linking_(linking),
+        scene_(folder.path + "/a.obj"),
+        table_(folder.path + "/a.csv"),
+        checkpoint_(folder.path + "/a.hrad") {}
   ~Program() { hrad_destroy(&solver_); }
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  static constexpr int steps = 16;
+  static constexpr int steps = 18;
 
   // A new solver with which the steps before this one are done.
   void begin(int number) {
@@ -147,6 +150,10 @@ class Program {
         return hrad_get_text(solver_, "linking", text, sizeof text, nullptr);
       case 13:
         return hrad_export(solver_, table_.c_str());
+      case 15:
+        return hrad_write_checkpoint(solver_, checkpoint_.c_str());
+      case 16:
+        return hrad_read_checkpoint(solver_, checkpoint_.c_str());
       default:
         return hrad_state_hash(solver_, &hash_);
     }
@@ -156,7 +163,7 @@ class Program {
   hrad_solver* solver() const { return solver_; }
 
  private:
-  std::string linking_, scene_, table_;
+  std::string linking_, scene_, table_, checkpoint_;
   hrad_solver* solver_ = nullptr;
   uint64_t hash_ = 0;
 };

@@ -243,8 +243,9 @@ static void calls_before_a_solve(void** state) {
   assert_true(out[0] == 1 && out[35] == 1);
   assert_ok(hrad_get_stats(solver, &stats));
   assert_true(stats.converged == 0 && stats.iterations == 0 && stats.error_estimate < 0);
-  assert_fails(hrad_write_checkpoint(solver, "a.hrad"), HRAD_ERROR_UNSUPPORTED, "a.hrad");
-  assert_fails(hrad_read_checkpoint(solver, "a.hrad"), HRAD_ERROR_UNSUPPORTED, "a.hrad");
+  assert_fails(hrad_write_checkpoint(solver, "no_such_folder/a.hrad"), HRAD_ERROR_FILE, "a.hrad");
+  assert_fails(hrad_read_checkpoint(solver, "no_such_file.hrad"), HRAD_ERROR_FILE,
+               "such_file.hrad");
   hrad_destroy(&solver);
 }
 

@@ -41,6 +41,8 @@ offers cornell hrad query cor
 offers furnace hrad scene furn
 offers room.obj hrad info roo
 offers room.csv hrad solve cornell -o roo
+offers --checkpoint-keep hrad solve cornell --checkp
+offers auto hrad solve cornell --restart a
 offers net_flux hrad query cornell --quantity n
 [[ " ${COMPREPLY[*]} " == *" radiosity "* ]] && complain "net_flux: others are offered too"
 finish

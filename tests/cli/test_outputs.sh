@@ -5,11 +5,10 @@
 long='building-x100 --accuracy 0.0005'
 for name in x.foo x folder.csv/x .; do
   # shellcheck disable=SC2086
-  refuses 2 "endings known here: .csv, .vtu" solve $long -o "$name"
+  refuses 2 "endings known here: .hrad, .csv, .vtu" solve $long -o "$name"
 done
 # shellcheck disable=SC2086
 {
-  refuses 2 "doesn't write .hrad" solve $long -o x.hrad
   refuses 2 "a scene, not a result" solve $long -o x.obj
   refuses 2 "given twice" solve $long -o x.csv -o ./x.csv
   refuses 5 "no_such_folder" solve $long -o no_such_folder/x.csv

@@ -10,7 +10,7 @@ cd "$folder"
 sed -n '/^```c$/,/^```$/p' "$HRAD_SOURCE_DIR/README.md" | sed '1d;$d' >program.c
 # The flags of this build, so that a library built with a sanitizer links as well.
 read -r -a flags <<<"$(sed -n 's/^CMAKE_C_FLAGS:STRING=//p' "$HRAD_BINARY_DIR/CMakeCache.txt")"
-read -r -a hwloc <<<"$(pkg-config --libs hwloc)"
+read -r -a hwloc <<<"$(pkg-config --libs hwloc zlib)"
 
 linked=false
 for embree in '' -lembree3 -lembree4; do

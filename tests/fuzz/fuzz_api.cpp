@@ -104,7 +104,7 @@ class Calls {
       case 14:
         return balance();
       default:
-        return check(hrad_write_checkpoint(solver_, bytes_.byte() % 2 ? "x" : nullptr));
+        return check(hrad_write_checkpoint(solver_, bytes_.byte() % 2 ? "" : nullptr));
     }
   }
 

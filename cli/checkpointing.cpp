@@ -1,0 +1,147 @@
+// Writing from the progress callback, and at the end (checkpointing.h). CLI: public headers only.
+#include "checkpointing.h"
+
+#include <sys/stat.h>
+
+#include <cstring>
+#include <utility>
+
+#include "exit_code.h"
+#include "numbers.h"
+#include "signals.h"
+
+namespace hrad::cli {
+namespace {
+
+bool exists(const std::string& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0;
+}
+
+hrad_stats stats_of(const hrad_solver* solver) {
+  hrad_stats stats{};
+  stats.struct_size = sizeof stats;
+  check(hrad_get_stats(solver, &stats));
+  return stats;
+}
+
+}  // namespace
+
+Checkpointing::Checkpointing(Session* session, CheckpointPlan plan)
+    : session_(session), plan_(std::move(plan)) {}
+
+void Checkpointing::begin() {
+  if (!plan_.path.empty()) {
+    check(hrad_set_int(session_->solver(), "checkpoint_keep", plan_.keep));
+    check(hrad_lock_checkpoint(session_->solver(), plan_.path.c_str()));
+  }
+  if (plan_.restart_auto)
+    restart_automatically();
+  else if (!plan_.restart.empty())
+    session_->restart(plan_.restart);
+  begun_ = true;
+}
+
+// False: the file is damaged, and that was said.
+bool Checkpointing::restart_from(const std::string& path) {
+  try {
+    session_->restart(path);
+    return true;
+  } catch (const Failure& failure) {
+    // What is damaged can be told from what belongs to another scene: this is a message of the
+    // file.
+    if (failure.code() != exit_checkpoint ||
+        hrad_describe_checkpoint(path.c_str(), nullptr, 0, nullptr) == HRAD_OK)
+      throw;
+    session_->terminal().say("warning: " + std::string(failure.what()));
+    return false;
+  }
+}
+
+void Checkpointing::restart_automatically() {
+  const std::string previous = plan_.path + ".prev";
+  const bool is_there = exists(plan_.path), previous_is_there = exists(previous);
+  if (!is_there && !previous_is_there) return;
+  if (is_there && restart_from(plan_.path)) {
+    const hrad_stats stats = stats_of(session_->solver());
+    sweeps_written_ = stats.iterations;
+    converged_written_ = stats.converged;
+    return;
+  }
+  // What is damaged must not take the place of what was kept.
+  if (is_there) check(hrad_set_int(session_->solver(), "checkpoint_keep", 0));
+  if (previous_is_there && restart_from(previous)) {
+    session_->terminal().say("warning: " + plan_.path + (is_there ? " is damaged" : " is missing") +
+                             ": going on from the older " + previous);
+    return;
+  }
+  throw Failure(exit_checkpoint,
+                plan_.path + (is_there ? " is damaged" : " is missing") + " and " + previous +
+                    (previous_is_there ? " is damaged" : " is missing"),
+                "remove what is damaged to begin anew");
+}
+
+bool Checkpointing::out_of_time() const {
+  return plan_.time_limit > 0 &&
+         std::chrono::duration<double>(Clock::now() - start_).count() >= plan_.time_limit;
+}
+
+// Asked with every progress: writes when it is time, and the solve goes on.
+bool Checkpointing::stops() {
+  if (out_of_time()) return true;
+  if (!plan_.path.empty() && (signals::take_checkpoint_request() ||
+                              std::chrono::duration<double>(Clock::now() - last_written_).count() >=
+                                  plan_.interval_seconds))
+    write_on_the_way();
+  return false;
+}
+
+int Checkpointing::solve() {
+  const hrad_status status =
+      session_->solve_until([this](const hrad_progress&) { return stops(); });
+  if (signals::pending() != 0) throw Interrupted{signals::pending()};
+  if (status == HRAD_STOPPED && out_of_time()) end_with_checkpoint("the time limit is reached");
+  if (status != HRAD_STOPPED && !plan_.path.empty() && has_news()) write();
+  return session_->conclude(status);
+}
+
+// A solve that did nothing leaves the file as it is.
+bool Checkpointing::has_news() const {
+  const hrad_stats stats = stats_of(session_->solver());
+  return stats.iterations != sweeps_written_ || stats.converged != converged_written_;
+}
+
+void Checkpointing::write() {
+  hrad_solver* solver = session_->solver();
+  check(hrad_write_checkpoint(solver, plan_.path.c_str()));
+  const hrad_stats stats = stats_of(solver);
+  sweeps_written_ = stats.iterations;
+  converged_written_ = stats.converged;
+}
+
+// A disk that is full for a while ends no solve: the old checkpoint is whole, and the next one will
+// be tried in its time.
+void Checkpointing::write_on_the_way() {
+  const hrad_status status = hrad_write_checkpoint(session_->solver(), plan_.path.c_str());
+  if (status < 0)
+    session_->terminal().say("warning: no checkpoint was written: " +
+                             std::string(hrad_error_message()));
+  else if (session_->terminal().verbosity() == Verbosity::verbose)
+    session_->terminal().say("wrote " + plan_.path);
+  if (status == HRAD_OK) sweeps_written_ = -1;
+  last_written_ = Clock::now();
+}
+
+void Checkpointing::end_with_checkpoint(const std::string& why) {
+  // What was not begun is in the file already, or in none.
+  if (begun_) write();
+  throw Failure(exit_stopped, why + (begun_ ? ": " + plan_.path + " has the solve so far" : ""),
+                "the same command goes on with --restart auto");
+}
+
+void Checkpointing::end_by_signal(int signal) {
+  if (plan_.path.empty()) return;
+  end_with_checkpoint(std::string("stopped: ") + ::strsignal(signal));
+}
+
+}  // namespace hrad::cli

@@ -1,0 +1,93 @@
+// The frame of a checkpoint: head, table of sections, sections made of compressed runs, end mark.
+// The layout is described in hrad-checkpoint(5). Floor 8 (solver).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "machine/file_self.h"
+#include "machine/thread_team.h"
+#include "solver/packed_bytes.h"
+
+namespace hrad {
+
+constexpr uint32_t checkpoint_version = 1;
+
+// In the order in which they stand in a file. Each is cut into runs of so many items, whoever
+// writes it.
+enum class Section {
+  origin,  // what wrote the file
+  parameters,
+  sizes,
+  materials,  // and what was found doubtful in the scene
+  vertices,
+  patches,
+  progress,
+  tree,
+  nodes,
+  clusters,
+  links,
+  cells,
+  mean_light,
+  points,
+  point_links,
+  own_points,
+  light,
+  count_of_sections
+};
+constexpr size_t section_count = static_cast<size_t>(Section::count_of_sections);
+const char* section_name(Section section);
+int64_t items_of_run(Section section);
+
+struct SectionEntry {
+  uint64_t offset = 0, stored = 0, raw = 0;  // bytes
+  uint32_t stored_checksum = 0, raw_checksum = 0;
+};
+
+// Writes one section after the other, a few runs at a time.
+class CheckpointSink {
+ public:
+  // team: to compress with; none: the calling thread alone. Both must outlive this.
+  CheckpointSink(WholeFile& file, ThreadTeam* team);
+
+  // Of items first .. end-1, the bytes of a run. Any thread.
+  using Pack = std::function<void(int64_t first, int64_t end, PackedBytes& bytes)>;
+  void write(Section section, int64_t items, const Pack& pack);
+  // After the last section.
+  void finish();
+
+ private:
+  void put(const std::string& bytes);
+
+  WholeFile& file_;
+  ThreadTeam* team_;
+  std::vector<SectionEntry> table_;
+  uint64_t offset_;
+};
+
+// The content of a file whose frame is right: its head, its table, its end, and the checksum of
+// every stored byte. FORMAT otherwise.
+class CheckpointSource {
+ public:
+  // content must outlive this.
+  explicit CheckpointSource(const std::string& content);
+
+  const SectionEntry& entry(Section section) const { return table_[static_cast<size_t>(section)]; }
+  // Where a section begins, for messages.
+  FilePlace place(Section section) const { return {section_name(section), entry(section).offset}; }
+
+  // Reads a section run by run; each is checked to be read to its end.
+  using Unpack = std::function<void(int64_t first, int64_t end, PackedReader& bytes)>;
+  void read(Section section, int64_t items, const Unpack& unpack) const;
+
+ private:
+  void read_table();
+  void check_sums() const;
+
+  const std::string& content_;
+  std::vector<SectionEntry> table_;
+};
+
+}  // namespace hrad

@@ -1,0 +1,37 @@
+// Light as sections of a checkpoint and back: radiosity and irradiance of all nodes, and the points
+// at which leaves know their direct light. Floor 8 (solver).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/packed_bytes.h"
+#include "stages/state.h"
+
+namespace hrad {
+
+void pack_light(const State& state, int64_t first, int64_t end, PackedBytes& bytes);
+
+// Light is kept as differences from what is expected by that of other nodes: all differences are
+// read, then added up.
+class LightReader {
+ public:
+  explicit LightReader(State& state) : state_(state) {}
+  void unpack(PackedReader& bytes, int64_t first, int64_t end);
+  void finish(const FilePlace& place);
+
+ private:
+  State& state_;
+  std::vector<uint32_t> irradiance_, radiosity_;
+};
+
+// Nodes first .. end-1 of CornerLight::of_leaf.
+void pack_points(const State& state, int64_t first, int64_t end, PackedBytes& bytes);
+void unpack_points(PackedReader& bytes, int64_t first, int64_t end, State& state);
+
+void pack_own_points(const CornerLight& direct, int64_t first, int64_t end, PackedBytes& bytes);
+void unpack_own_points(PackedReader& bytes, int64_t first, int64_t end, CornerLight& direct);
+// FORMAT unless points belong to one surface each, and every leaf with points of its own has them.
+void check_points(const State& state, const FilePlace& place);
+
+}  // namespace hrad

@@ -1,0 +1,34 @@
+// The small sections of a checkpoint: what wrote it, parameters, sizes of the others, progress and
+// measurements. Floor 8 (solver).
+#pragma once
+
+#include "solver/checkpoint.h"
+#include "solver/checkpoint_format.h"
+
+namespace hrad {
+
+struct CheckpointSizes {
+  int64_t bands = 0, vertices = 0, materials = 0, patches = 0;
+  // Of the solution, all 0 where nothing is linked:
+  int64_t surfaces = 0, clusters = 0, families = 0, links = 0, cells = 0;
+  int64_t receivers_of_means = 0, mean_links = 0;  // nodes, or 0 where there is no direct light
+  int64_t leaves_of_points = 0;                    // nodes, or 0 where light is known at no points
+  int64_t points = 0, point_links = 0, own_points = 0;
+  int64_t nodes() const { return surfaces + clusters + 4 * families; }
+};
+
+CheckpointSizes sizes_of(const Scene& scene, const State* state);
+void pack_sizes(const CheckpointSizes& sizes, PackedBytes& bytes);
+// FORMAT when a section is too short for what it is to hold.
+CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source);
+// Of the arrays that will hold it all.
+int64_t bytes_of(const CheckpointSizes& sizes);
+
+std::string origin_text(const Params& params);
+void pack_params(const Params& params, PackedBytes& bytes);
+void unpack_params(PackedReader& bytes, Params& params);
+
+void pack_progress(const CheckpointView& view, PackedBytes& bytes);
+void unpack_progress(PackedReader& bytes, CheckpointContent& content);
+
+}  // namespace hrad

@@ -1,0 +1,110 @@
+// The solver's way into a checkpoint and back. Floor 8 (solver).
+#include <chrono>
+#include <utility>
+
+#include "base/error.h"
+#include "solver/checkpoint.h"
+#include "solver/checkpoint_scene.h"
+#include "solver/solution.h"
+#include "stages/state_memory.h"
+
+namespace hrad {
+namespace {
+
+// The result parameters of the file and the run parameters of the solver.
+Params joined(const Params& of_file, const Params& here) {
+  Params params = here;
+  for (const ParamRow& row : param_table()) {
+    if (!row.is_result) continue;
+    if (row.as_int) params.*row.as_int = of_file.*row.as_int;
+    if (row.as_double) params.*row.as_double = of_file.*row.as_double;
+    if (row.as_text) params.*row.as_text = of_file.*row.as_text;
+  }
+  return params;
+}
+
+}  // namespace
+
+void Solver::lock_checkpoint(const std::string& path) {
+  if (checkpoint_lock_ && checkpoint_lock_->is_of(path)) return;
+  checkpoint_lock_ = std::make_unique<FileLock>(path);
+}
+
+void Solver::write_checkpoint(const std::string& path) {
+  const auto start = std::chrono::steady_clock::now();
+  std::unique_ptr<FileLock> lock;
+  if (!checkpoint_lock_ || !checkpoint_lock_->is_of(path)) lock = std::make_unique<FileLock>(path);
+  WholeFile file(path);
+  const SolveProgress no_progress;
+  const PowerBalance no_balance;
+  const Inspection no_inspection;
+  const Solution* s = solution_.get();
+  const SolveProgress* progress = s ? static_cast<const SolveProgress*>(s) : &no_progress;
+  hrad::write_checkpoint(file,
+                         {params_, scene_, begun_, s && s->linked ? &s->state : nullptr,
+                          s ? s->state.rays : 0, s ? s->state.pairs : 0, *progress, stats_,
+                          s ? s->balance : no_balance, s ? s->inspection : no_inspection},
+                         s && !solving_ ? s->team.get() : nullptr);
+  file.commit_keeping(static_cast<int>(params_.checkpoint_keep));
+  stats_.seconds_output +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Builds what is not in the file, and puts what was read in place.
+void Solver::take_over(CheckpointContent& content) {
+  partition();
+  Solution& s = *solution_;
+  static_cast<SolveProgress&>(s) = content.progress;
+  s.inspection = content.inspection;
+  s.balance = std::move(content.balance);
+  State& state = s.state;
+  state.rays = content.rays;
+  state.pairs = content.pairs;
+  if (!content.state) return;
+  const int64_t before = bytes_of(state);
+  state.forest = std::move(content.state->forest);
+  state.forest.scene = &scene_;
+  state.links = std::move(content.state->links);
+  state.cells = std::move(content.state->cells);
+  state.direct = std::move(content.state->direct);
+  state.radiosity = std::move(content.state->radiosity);
+  state.irradiance = std::move(content.state->irradiance);
+  state.memory.take(bytes_of(state) - before, "links and elements");
+  s.leaves = state.forest.leaves();
+}
+
+void Solver::read_checkpoint(const std::string& path) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::unique_ptr<CheckpointContent> content = read_checkpoint_file(path, params_.max_memory);
+  if (scene_.patch_count() > 0) {
+    const std::string difference = difference_of(content->scene, scene_);
+    if (!difference.empty())
+      fail(Status::state, "%s is the checkpoint of another scene: %s", path.c_str(),
+           difference.c_str());
+  }
+  const bool begun = content->begun;
+  Params params = joined(content->params, params_);
+  // What is here now comes back when the rest fails.
+  std::unique_ptr<Solution> solution = std::move(solution_);
+  std::swap(scene_, content->scene);
+  std::swap(params_, params);
+  const Stats stats = std::exchange(stats_, content->stats);
+  try {
+    if (begun) take_over(*content);
+  } catch (const std::exception& error) {
+    solution_ = std::move(solution);
+    std::swap(scene_, content->scene);
+    std::swap(params_, params);
+    stats_ = stats;
+    const auto* known = dynamic_cast<const Error*>(&error);
+    // A scene that can't be partitioned is no scene that a solver writes.
+    if (known && known->status() == Status::scene)
+      fail(Status::format, "%s: section 'patches': %s", path.c_str(), known->what());
+    throw;
+  }
+  begun_ = begun;
+  stats_.seconds_load =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace hrad

@@ -1,0 +1,77 @@
+# Every call that writes a checkpoint made to fail in turn, once and from then on: the file that was
+# there is whole, or the new one is; nothing else is left; the exit code is 5 with what happened.
+. "$(dirname "$0")/common.sh"
+
+cc -shared -fPIC -O1 -o failing_io.so "$HRAD_SOURCE_DIR/tests/cli/failing_io.c" -ldl 2>cc.err || {
+  echo "skipped: no C compiler that makes shared libraries: $(head -1 cc.err)"
+  exit 77
+}
+# Sanitizers want to be loaded first.
+if nm "$HRAD" 2>/dev/null | grep -q -e __asan_init -e __tsan_init; then
+  echo "skipped: the tool is built with a sanitizer"
+  exit 77
+fi
+works solve cornell --accuracy 0.5 -o small.hrad
+works solve furnace --accuracy 0.4 -o other.hrad
+here=$work/place
+mkdir "$here"
+
+# attempt CALL EVER ERRNO: writes over a checkpoint with one call failing.
+attempt() {
+  rm -rf "$here"
+  mkdir "$here"
+  cp other.hrad "$here/c.hrad"
+  HRAD_FAIL_FOLDER=$here HRAD_FAIL_CALL=$1 HRAD_FAIL_EVER=$2 HRAD_FAIL_ERRNO=$3 \
+    HRAD_FAIL_REPORT=$work/calls LD_PRELOAD=$work/failing_io.so \
+    "$HRAD" solve small.hrad --checkpoint "$here/c.hrad" >out 2>err </dev/null
+  code=$?
+  ran="call $1 failing with $3 (ever: $2)"
+}
+
+attempt 0 0 5
+calls=$(cat calls)
+[ "$code" = 0 ] || complain "nothing failed and the exit code is $code: $(cat err)"
+[ "$calls" -ge 9 ] || complain "only $calls calls were seen"
+cmp -s "$here/c.hrad" small.hrad || complain "without failures the file is another"
+cmp -s "$here/c.hrad.prev" other.hrad || complain "the old file was not kept"
+
+# ENOSPC 28, EIO 5, EDQUOT 122, EINTR 4, EROFS 30; 0: a short write.
+failed=0
+for error in 28 5 122 4 30 0; do
+  for ever in 0 1; do
+    [ "$error" = 4 ] && [ "$ever" = 1 ] && continue # tried again for ever, as it should be
+    for call in $(seq "$calls"); do
+      attempt "$call" $ever $error
+      case $code in
+        0)
+          cmp -s "$here/c.hrad" small.hrad || complain "$ran: exit code 0 and not the new file"
+          ;;
+        5)
+          failed=$((failed + 1))
+          grep -q "c.hrad" err || complain "$ran: the file is not named: $(cat err)"
+          cmp -s "$here/c.hrad" other.hrad || cmp -s "$here/c.hrad" small.hrad ||
+            complain "$ran: the file is neither the old nor the new one"
+          ;;
+        *) complain "$ran: exit code $code: $(cat err)" ;;
+      esac
+      for left in "$here"/.[!.]* "$here"/*; do
+        case $left in
+          "$here/c.hrad" | "$here/c.hrad.prev" | "$here/.[!.]*") ;;
+          *) complain "$ran: left behind: $left" ;;
+        esac
+      done
+    done
+  done
+done
+[ $failed -gt "$calls" ] || complain "only $failed attempts failed"
+
+# A limit on the size of files, and no room at all.
+(
+  ulimit -f 4
+  trap '' XFSZ
+  "$HRAD" solve small.hrad --checkpoint big.hrad >out 2>err
+  [ $? = 5 ]
+) || complain "a limit on file sizes: $(cat err)"
+[ -e big.hrad ] && complain "a limit on file sizes: a file was written"
+ls -A | grep -q '\.tmp$' && complain "a limit on file sizes: left behind: $(ls -A)"
+finish

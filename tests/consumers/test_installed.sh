@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# The library in the hands of other projects: installed, moved, found by pkg-config and by CMake, and
+# linked by every compiler that is here. No program of one process needs an MPI library.
+set -euo pipefail
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cp -r "$HRAD_SOURCE_DIR/tests/consumers" "$folder/consumers"
+cd "$folder"
+
+cmake --install "$HRAD_BINARY_DIR" --prefix "$folder/before" >installed
+mv before after
+config=$(find after -name hrad.pc -printf '%h')
+export PKG_CONFIG_PATH=$folder/$config
+case $(pkg-config --libs --cflags --static hrad) in
+  *"$folder/before"*) echo "hrad.pc names the prefix that is gone" >&2 && exit 1 ;;
+esac
+
+# The flags of this build, so that a library built with a sanitizer links as well.
+flags=$(sed -n 's/^CMAKE_C_FLAGS:STRING=//p' "$HRAD_BINARY_DIR/CMakeCache.txt")
+library_path=$(dirname "$(find "$folder/after" -name 'libhrad.*' | head -n 1)")
+export LD_LIBRARY_PATH=$library_path
+
+runs() {  # PROGRAM
+  "$1" || { echo "$1 ends with $?" >&2 && exit 1; }
+  if ldd "$1" | grep -i 'libmpi'; then
+    echo "$1 needs an MPI library" >&2
+    exit 1
+  fi
+}
+
+compilers=(cc)
+[[ -n $flags ]] || for other in gcc clang; do
+  if command -v $other >/dev/null; then compilers+=("$other"); fi
+done
+for compiler in "${compilers[@]}"; do
+  echo "pkg-config, $compiler"
+  make -s -C consumers/makefile clean
+  make -s -C consumers/makefile CC="$compiler" CFLAGS="-std=c99 -Wall -Wextra -Werror $flags"
+  runs consumers/makefile/work_plane
+done
+
+for language in C CXX; do
+  echo "CMake, $language"
+  cmake -S consumers/cmake -B "cmake-$language" -DLANGUAGE=$language \
+    -DCMAKE_PREFIX_PATH="$folder/after" -DCMAKE_${language}_FLAGS="$flags" >configured ||
+    { cat configured && exit 1; }
+  cmake --build "cmake-$language" >built || { cat built && exit 1; }
+  runs "cmake-$language/work_plane"
+done
+
+# Where libraries have folders of their own, and where theirs lies outside the prefix.
+for libdir in lib/some-machine-gnu "$folder/elsewhere/lib"; do
+  cmake -S "$HRAD_SOURCE_DIR" -B configured-only -DHRAD_TESTS=OFF -DHRAD_EMBREE=OFF \
+    -DCMAKE_INSTALL_PREFIX="$folder/prefix" -DCMAKE_INSTALL_LIBDIR="$libdir" >configured ||
+    { cat configured && exit 1; }
+  case $libdir in
+    /*) wanted=$libdir ;;
+    *) wanted=$folder/prefix/$libdir ;;
+  esac
+  mkdir -p "$wanted/pkgconfig"
+  cp configured-only/pkgconfig/hrad.pc "$wanted/pkgconfig"
+  said=$(PKG_CONFIG_PATH=$wanted/pkgconfig pkg-config --variable=libdir hrad)
+  [[ $(realpath -m "$said") == "$wanted" ]] || {
+    echo "with the libdir $libdir hrad.pc says $said" >&2 && exit 1
+  }
+  said=$(PKG_CONFIG_PATH=$wanted/pkgconfig pkg-config --variable=includedir hrad)
+  [[ $(realpath -m "$said") == "$folder/prefix/include" ]] || {
+    echo "with the libdir $libdir hrad.pc looks for headers in $said" >&2 && exit 1
+  }
+  rm -r configured-only
+done

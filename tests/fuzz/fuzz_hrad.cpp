@@ -1,0 +1,65 @@
+// Fuzz target: any bytes as a .hrad file, as they are or, where they don't begin as one, as the
+// plain contents of its sections (a byte with the number of runs, four bytes with its length before
+// each), which are put into a file with right checksums. Reading ends with a typed error that names
+// the section, or with a state that can be swept and drawn.
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "fuzz/target.h"
+#include "solver/checkpoint.h"
+#include "solver/reconstruction.h"
+#include "stages/gather.h"
+#include "stages/sweep.h"
+#include "support/checkpoint_frame.h"
+
+namespace {
+
+std::string file_of_sections(const std::string& bytes) {
+  hrad_test::Frame frame(hrad::section_count);
+  size_t at = 0;
+  for (auto& runs : frame) {
+    const int count = at < bytes.size() ? static_cast<unsigned char>(bytes[at++]) : 0;
+    for (int k = 0; k < count && at + 4 <= bytes.size(); ++k) {
+      const size_t size = hrad_test::little_endian(bytes, at, 4) % (size_t{1} << 20);
+      at += 4;
+      hrad_test::FrameRun run;
+      run.raw = bytes.substr(std::min(at, bytes.size()), size);
+      runs.push_back(run);
+      at += size;
+    }
+  }
+  return hrad_test::file_of(frame);
+}
+
+void use(hrad::CheckpointContent& content) {
+  if (!content.state || content.state->forest.surface_count() == 0) return;
+  hrad::State& state = *content.state;
+  hrad::ThreadTeam team(1);
+  const auto leaves = state.forest.leaves();
+  std::vector<double> light(3 * static_cast<size_t>(state.bands));
+  const hrad::Reconstruction linear(state, leaves);
+  for (hrad::NodeId leaf : leaves) linear.corners(leaf, light.data());
+  hrad::gather(state, team);
+  hrad::push_pull(state, team);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const bool whole = bytes.compare(0, 4, "\x89HRD") == 0;
+  try {
+    constexpr int64_t limit = int64_t{1} << 28;
+    const auto content = hrad::read_checkpoint(whole ? bytes : file_of_sections(bytes), limit);
+    use(*content);
+  } catch (const hrad::Error& error) {
+    const bool typed = error.status() == hrad::Status::memory ||
+                       (error.status() == hrad::Status::format &&
+                        std::string(error.what()).find("section '") != std::string::npos);
+    if (!typed) std::abort();
+  }
+  return 0;
+}

@@ -1,0 +1,324 @@
+// Checkpoints: what is read is what was written, for every method and state; a solve goes on from
+// one to the same bits; the bytes don't depend on threads.
+#include <vector>
+
+#include "solver/checkpoint_files.h"
+
+using hrad::Solver;
+using hrad::Status;
+using namespace hrad_test;
+
+namespace {
+
+const SolveCase cases[] = {
+    {"cornell", "rows", "error", 0.1},
+    {"cornell", "rows", "error", 0.1, "means"},
+    {"furnished-room", "rows", "error", 0.1},
+    {"cornell", "pairs", "error", 0.4},
+    {"cornell", "pairs", "energy", 0.4},
+    {"cornell", "clusters", "error", 0.5},
+    {"furnace", "auto", "error", 0.2, "points", 1},
+    {"cornell", "rows", "error", 0.2, "points", 5},
+};
+
+// All that queries and exports are made of.
+std::vector<double> answers_of(const Solver& solver) {
+  const int bands = solver.scene().bands;
+  const int64_t leaves = solver.leaf_count();
+  std::vector<double> all, corners(3 * static_cast<size_t>(bands));
+  for (int64_t k = 0; k < leaves; ++k) {
+    const hrad::LeafView leaf = solver.leaf(k);
+    all.insert(all.end(), {static_cast<double>(leaf.patch), static_cast<double>(leaf.face),
+                           leaf.area, leaf.exposed, leaf.corners.b.y});
+    solver.leaf_corner_radiosity(k, corners.data());
+    all.insert(all.end(), corners.begin(), corners.end());
+    solver.leaf_values(k, hrad::Quantity::irradiance, corners.data());
+    all.insert(all.end(), corners.begin(), corners.begin() + bands);
+  }
+  std::vector<double> four(4 * static_cast<size_t>(bands));
+  solver.power_balance(&four[0], &four[bands], &four[2 * bands], &four[3 * bands]);
+  all.insert(all.end(), four.begin(), four.end());
+  const double xyz[] = {0.4, 0.5, 0.25}, normal[] = {0, 0.5, 1};
+  solver.query_sensors(1, xyz, normal, &four[0], &four[bands]);
+  all.insert(all.end(), four.begin(), four.end());
+  const hrad::Stats stats = solver.stats();
+  for (double value : {stats.error_estimate, stats.error_standard_error, stats.area,
+                       stats.sealed_area, stats.back_share})
+    all.push_back(value);
+  for (int64_t value : {stats.rounds, stats.iterations, stats.elements, stats.links, stats.rays,
+                        stats.pairs, stats.leaves})
+    all.push_back(static_cast<double>(value));
+  return all;
+}
+
+void same_solvers(const Solver& one, const Solver& other) {
+  CHECK(one.state_hash() == other.state_hash());
+  CHECK(one.diagnostics() == other.diagnostics());
+  CHECK(answers_of(one) == answers_of(other));
+  for (const hrad::ParamRow& row : hrad::param_table())
+    if (row.is_result) CHECK(same_value(one.params(), other.params(), row));
+}
+
+void what_is_read_is_what_was_written() {
+  const Folder folder("round-trip");
+  for (const SolveCase& c : cases) {
+    const auto solver = solver_of(c);
+    solver->solve();
+    solver->write_checkpoint(folder.file("a.hrad"));
+    Solver other;
+    other.read_checkpoint(folder.file("a.hrad"));
+    CHECK(solver->state_hash() == other.state_hash());
+    other.write_checkpoint(folder.file("b.hrad"));
+    CHECK(bytes_of_file(folder.file("a.hrad")) == bytes_of_file(folder.file("b.hrad")));
+    same_solvers(*solver, other);
+    // There is nothing left to do.
+    const Status status = other.solve();
+    CHECK(status == Status::ok || status == Status::not_converged);
+    CHECK(solver->state_hash() == other.state_hash());
+    CHECK_EQUAL(other.stats().iterations, solver->stats().iterations);
+  }
+}
+
+// Places where a solve may be stopped: after a sweep, or where so much of another stage is done.
+struct Stop {
+  const char* stage;
+  int64_t iteration;
+  double fraction;
+};
+
+// False: the solve came to its end before.
+bool solve_until(Solver& solver, const Stop& stop) {
+  solver.set_progress([&](const hrad::Progress& progress) {
+    return progress.stage != std::string(stop.stage) || progress.iteration < stop.iteration ||
+           progress.fraction < stop.fraction;
+  });
+  const bool stopped = solver.solve() == Status::stopped;
+  solver.set_progress(nullptr);
+  return stopped;
+}
+
+// Solves on from the checkpoint of a stopped solve. False: there was nothing to be stopped.
+bool goes_on_to(const Solver& whole, const SolveCase& c, const Stop& stop,
+                const std::string& path) {
+  const auto solver = solver_of(c);
+  if (!solve_until(*solver, stop)) return false;
+  solver->write_checkpoint(path);
+  Solver other;
+  other.read_checkpoint(path);
+  CHECK(other.solved() == solver->solved());
+  if (solver->solved()) CHECK(other.state_hash() == solver->state_hash());
+  CHECK(other.solve() != Status::stopped);
+  CHECK(other.state_hash() == whole.state_hash());
+  CHECK_EQUAL(other.stats().iterations, whole.stats().iterations);
+  CHECK(other.stats().error_estimate == whole.stats().error_estimate);
+  return true;
+}
+
+void a_stopped_solve_goes_on_from_its_checkpoint() {
+  const Folder folder("stops");
+  for (const SolveCase& c :
+       {SolveCase{"cornell", "rows", "error", 0.3}, SolveCase{"cornell", "pairs", "error", 0.4},
+        SolveCase{"cornell", "clusters", "error", 0.5}}) {
+    const auto whole = solver_of(c);
+    whole->solve();
+    const int64_t sweeps = whole->stats().iterations;
+    int64_t stops = 0;
+    const int64_t step = c.linking == std::string("clusters") ? 5 : 1;
+    for (int64_t sweep = 1; sweep <= sweeps; sweep += step)
+      stops += goes_on_to(*whole, c, {"sweep", sweep, 0}, folder.file("a.hrad"));
+    CHECK(stops >= (sweeps - 1) / step);
+    for (double fraction : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9})
+      for (const char* stage : {"linking", "refine"})
+        stops += goes_on_to(*whole, c, {stage, 0, fraction}, folder.file("a.hrad"));
+    CHECK(stops > sweeps / step + 2);
+  }
+}
+
+// Through a file after every sweep, with other threads each time.
+void a_solve_goes_on_through_many_checkpoints() {
+  const Folder folder("chain");
+  for (const SolveCase& c : {cases[0], SolveCase{"cornell", "pairs", "energy", 0.4}}) {
+    const auto whole = solver_of(c);
+    whole->solve();
+    auto solver = solver_of(c);
+    int links_of_the_chain = 0;
+    for (;;) {
+      int64_t before = solver->stats().iterations;
+      solver->set_progress([&](const hrad::Progress& progress) {
+        return std::string(progress.stage) != "sweep" || progress.iteration == before;
+      });
+      if (solver->solve() != Status::stopped) break;
+      solver->write_checkpoint(folder.file("chain.hrad"));
+      solver = std::make_unique<Solver>();
+      solver->set_int("threads", 1 + links_of_the_chain % 3);
+      solver->read_checkpoint(folder.file("chain.hrad"));
+      ++links_of_the_chain;
+    }
+    CHECK(links_of_the_chain >= 10);
+    CHECK(solver->state_hash() == whole->state_hash());
+    CHECK_EQUAL(solver->stats().iterations, whole->stats().iterations);
+  }
+}
+
+void the_bytes_are_the_same_for_any_threads() {
+  const Folder folder("threads");
+  for (const SolveCase& c : {cases[2], SolveCase{"cornell", "pairs", "error", 0.4}, cases[5]}) {
+    std::string first;
+    for (int threads : {1, 2, 4}) {
+      const auto solver = solver_of(c, threads);
+      solver->solve();
+      solver->write_checkpoint(folder.file("a.hrad"));
+      const std::string bytes = bytes_of_file(folder.file("a.hrad"));
+      if (threads == 1) first = bytes;
+      CHECK(bytes == first);
+    }
+  }
+}
+
+void light_and_sweeps_alone_are_kept_as_well() {
+  const Folder folder("resolve");
+  const auto solver = solver_of(cases[0]);
+  solver->solve();
+  const int64_t patches = solver->scene().patch_count();
+  std::vector<double> emission(3 * static_cast<size_t>(patches), 0.25);
+  solver->set_emission(0, patches, emission.data());
+  solver->set_int("refine", 0);
+  const int64_t sweeps = solver->stats().iterations;
+  // Before these sweeps, between them and after them.
+  for (int64_t stop : {int64_t{0}, int64_t{3}, int64_t{1000}}) {
+    if (stop > 0) static_cast<void>(solve_until(*solver, {"sweep", sweeps + stop, 0}));
+    solver->write_checkpoint(folder.file("a.hrad"));
+    Solver other;
+    other.read_checkpoint(folder.file("a.hrad"));
+    CHECK(other.state_hash() == solver->state_hash());
+    Solver third;
+    third.read_checkpoint(folder.file("a.hrad"));
+    CHECK(third.solve() == Status::ok);
+    CHECK(other.solve() == Status::ok);
+    CHECK(third.state_hash() == other.state_hash());
+  }
+}
+
+void a_scene_without_a_solve_is_kept_open() {
+  const Folder folder("open");
+  const auto solver = solver_of(cases[0]);
+  solver->write_checkpoint(folder.file("scene.hrad"));
+  Solver other;
+  other.read_checkpoint(folder.file("scene.hrad"));
+  CHECK(!other.solved());
+  CHECK_EQUAL(other.scene().patch_count(), solver->scene().patch_count());
+  other.add_material({});
+  other.set_int("seed", 2);
+  other.set_int("seed", 1);
+  CHECK(other.solve() == Status::ok);
+  solver->solve();
+  CHECK(other.state_hash() == solver->state_hash());
+  // An empty solver is a state like any other.
+  Solver empty, also_empty;
+  empty.write_checkpoint(folder.file("empty.hrad"));
+  also_empty.read_checkpoint(folder.file("empty.hrad"));
+  CHECK_EQUAL(also_empty.scene().patch_count(), 0);
+}
+
+void the_parameters_of_the_file_hold() {
+  const Folder folder("parameters");
+  const auto solver = solver_of(cases[0]);
+  solver->solve();
+  solver->write_checkpoint(folder.file("a.hrad"));
+  Solver other;
+  other.set_double("accuracy", 0.3);
+  other.set_int("threads", 2);
+  other.read_checkpoint(folder.file("a.hrad"));
+  CHECK(other.params().accuracy == 0.1);
+  CHECK_EQUAL(other.params().threads, 2);
+  CHECK_FAILS(other.set_int("seed", 7), Status::state, "'seed' is 1");
+  CHECK_FAILS(other.set_int("seed", 7), Status::state, "7");
+  CHECK_FAILS(other.set_double("accuracy", 0.2), Status::state, "0.1");
+  other.set_double("accuracy", 0.05);
+  CHECK(other.solve() == Status::ok);
+  solver->set_double("accuracy", 0.05);
+  CHECK(solver->solve() == Status::ok);
+  CHECK(solver->state_hash() == other.state_hash());
+}
+
+void what_can_not_be_read_changes_nothing() {
+  const Folder folder("refused");
+  const auto solver = solver_of(cases[0]), other = solver_of({"furnace", "rows", "error", 0.2});
+  solver->solve();
+  other->solve();
+  solver->write_checkpoint(folder.file("a.hrad"));
+  other->write_checkpoint(folder.file("b.hrad"));
+  const uint64_t hash = solver->state_hash();
+  const std::vector<double> answers = answers_of(*solver);
+  CHECK_FAILS(solver->read_checkpoint(folder.file("b.hrad")), Status::state,
+              "12 patches and the scene 36");
+  CHECK_FAILS(solver->read_checkpoint(folder.file("none.hrad")), Status::file, "none.hrad");
+  CHECK_FAILS(solver->read_checkpoint(folder.file("")), Status::file, "");
+  write_bytes(folder.file("cut.hrad"), bytes_of_file(folder.file("a.hrad")).substr(0, 5000));
+  CHECK_FAILS(solver->read_checkpoint(folder.file("cut.hrad")), Status::format, "cut short");
+  Solver small;
+  small.set_int("max_memory", 50000);
+  CHECK_FAILS(small.read_checkpoint(folder.file("a.hrad")), Status::memory, "max_memory");
+  CHECK_EQUAL(small.scene().patch_count(), 0);
+  CHECK(small.params().accuracy == hrad::Params().accuracy);
+  CHECK(solver->state_hash() == hash && answers_of(*solver) == answers);
+  // The same scene with other light is another scene.
+  const double emission[3] = {1, 2, 3};
+  const auto lit = solver_of(cases[0]);
+  lit->set_emission(5, 1, emission);
+  CHECK_FAILS(lit->read_checkpoint(folder.file("a.hrad")), Status::state,
+              "the emission of patch 5 in band 0 is 0 in the file and 1 in the scene");
+}
+
+void older_files_are_kept() {
+  const Folder folder("older");
+  const auto solver = solver_of(cases[0]);
+  const auto write = [&](int64_t keep, double accuracy) {
+    solver->set_int("checkpoint_keep", keep);
+    solver->set_double("accuracy", accuracy);
+    solver->write_checkpoint(folder.file("a.hrad"));
+    return bytes_of_file(folder.file("a.hrad"));
+  };
+  const std::string first = write(0, 0.5), second = write(0, 0.4);
+  CHECK_EQUAL(folder.count(), 1);
+  const std::string third = write(1, 0.3);
+  CHECK(bytes_of_file(folder.file("a.hrad.prev")) == second);
+  const std::string fourth = write(3, 0.2);
+  CHECK(bytes_of_file(folder.file("a.hrad.prev")) == third);
+  CHECK(bytes_of_file(folder.file("a.hrad.prev2")) == second);
+  CHECK_EQUAL(folder.count(), 3);
+  write(3, 0.1);
+  write(3, 0.05);
+  CHECK(bytes_of_file(folder.file("a.hrad.prev3")) == third);
+  CHECK_EQUAL(folder.count(), 4);
+  CHECK(first != second);
+}
+
+void a_second_writer_is_refused() {
+  const Folder folder("lock");
+  const auto one = solver_of(cases[0]), other = solver_of(cases[0]);
+  one->lock_checkpoint(folder.file("a.hrad"));
+  CHECK_FAILS(other->write_checkpoint(folder.file("a.hrad")), Status::file, "another process");
+  CHECK_FAILS(other->lock_checkpoint(folder.file("a.hrad")), Status::file, "another process");
+  one->write_checkpoint(folder.file("a.hrad"));
+  one->lock_checkpoint(folder.file("a.hrad"));
+  CHECK_FAILS(other->write_checkpoint(folder.file("./a.hrad")), Status::file, "another process");
+  one->lock_checkpoint(folder.file("b.hrad"));
+  other->write_checkpoint(folder.file("a.hrad"));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {HRAD_TEST(what_is_read_is_what_was_written),
+                              HRAD_TEST(a_stopped_solve_goes_on_from_its_checkpoint),
+                              HRAD_TEST(a_solve_goes_on_through_many_checkpoints),
+                              HRAD_TEST(the_bytes_are_the_same_for_any_threads),
+                              HRAD_TEST(light_and_sweeps_alone_are_kept_as_well),
+                              HRAD_TEST(a_scene_without_a_solve_is_kept_open),
+                              HRAD_TEST(the_parameters_of_the_file_hold),
+                              HRAD_TEST(what_can_not_be_read_changes_nothing),
+                              HRAD_TEST(older_files_are_kept),
+                              HRAD_TEST(a_second_writer_is_refused)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
