@@ -38,8 +38,8 @@ contains
   end subroutine hrad_lock_checkpoint
 
   ! Reads a checkpoint: the solver is then as the one that wrote it was, with the same hash. A
-  ! solver that has patches must have the same scene. Errors: FILE; FORMAT for a file that is damaged
-  ! or no checkpoint; STATE for another scene; MEMORY. The solver is then as it was.
+  ! solver that has patches must have the same scene. Errors: FILE; FORMAT for a file that is
+  ! damaged or no checkpoint; STATE for another scene; MEMORY. The solver is then as it was.
   subroutine hrad_read_checkpoint(solver, path, status)
     type(hrad_solver), intent(in) :: solver
     character(len=*), intent(in) :: path
