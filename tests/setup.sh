@@ -14,6 +14,8 @@ case "${1:-build}" in
     packages+=(libcmocka-dev python3)
     # The second ray engine, against which the built-in one is checked; not on every architecture.
     optional+=(libembree-dev)
+    # The module for Fortran programs.
+    optional+=(gfortran)
     # Its libFuzzer looks for input that breaks the readers and the C interface.
     optional+=(clang)
     # Checks the manual pages.

@@ -50,7 +50,18 @@ for compiler in "${compilers[@]}"; do
   runs consumers/makefile/work_plane
 done
 
-for language in C CXX; do
+languages=(C CXX)
+# Sanitizers of a build by clang are nothing that gfortran could link.
+if [[ -z $flags ]] && pkg-config --exists hrad-fortran; then
+  languages+=(Fortran)
+  echo "pkg-config, gfortran"
+  read -r -a linked <<<"$(pkg-config --cflags --libs --static hrad-fortran)"
+  gfortran -o heated_room consumers/fortran/room_mesh.f90 consumers/fortran/heated_room.f90 \
+    "${linked[@]}"
+  runs ./heated_room
+fi
+
+for language in "${languages[@]}"; do
   echo "CMake, $language"
   cmake -S consumers/cmake -B "cmake-$language" -DLANGUAGE=$language \
     -DCMAKE_PREFIX_PATH="$folder/after" -DCMAKE_${language}_FLAGS="$flags" >configured ||

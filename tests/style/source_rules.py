@@ -7,6 +7,8 @@ import re
 from tree import CODE, FLOORS, OWN_FOLDER, SOURCE, Offence
 
 MAX_LINES = 400
+FORTRAN_MAX_LINES = 300
+FORTRAN_MAX_COLUMNS = 100
 PUBLIC_ONLY = ("cli/", "tests/api/", "tests/physics/", "tests/consumers/")
 
 # Output, process control and signals; formatting into memory is fine. An assert prints and aborts.
@@ -135,6 +137,28 @@ def files_are_short(tree):
     return offences
 
 
+def fortran_keeps_its_form(tree):
+    """Fortran files are short, have short lines and begin with a comment that says what they are
+    for; every public procedure of the binding has one too."""
+    offences = []
+    for path in tree.under("bindings/", "tests/", suffixes=(".f90", ".F90")):
+        lines = tree.text(path).splitlines()
+        if not re.match(r"! \w", lines[0] if lines else ""):
+            offences.append(Offence(path, 1, "has no head comment"))
+        if len(lines) > FORTRAN_MAX_LINES:
+            offences.append(Offence(path, FORTRAN_MAX_LINES + 1, "%d lines, more than %d" % (
+                len(lines), FORTRAN_MAX_LINES)))
+        for number, line in enumerate(lines, 1):
+            if len(line) > FORTRAN_MAX_COLUMNS:
+                offences.append(Offence(path, number, "%d columns, more than %d" % (
+                    len(line), FORTRAN_MAX_COLUMNS)))
+            public = re.match(r" +(?:interface|subroutine|(?:\w+ )*function) (hrad_\w+)", line)
+            if (path.startswith("bindings/") and public and not line.lstrip().startswith("end ") and
+                    not re.match(r" +! ", lines[number - 2])):
+                offences.append(Offence(path, number, "%s has no comment" % public.group(1)))
+    return offences
+
+
 def heads_name_the_floor(tree):
     """Every file of lib/ begins with a comment that says what it is for and names its floor."""
     offences = []
@@ -198,4 +222,5 @@ def public_functions_are_tested(tree):
 
 RULES = [includes_point_down, outside_sees_only_the_public_header,
          foreign_headers_stay_in_their_files, library_is_silent_and_harmless, no_transcendentals,
-         files_are_short, heads_name_the_floor, words_fit_the_tree, public_functions_are_tested]
+         files_are_short, fortran_keeps_its_form, heads_name_the_floor, words_fit_the_tree,
+         public_functions_are_tested]

@@ -26,6 +26,12 @@ class Readme(unittest.TestCase):
         first, last = lines.index("#include <hrad/hrad.h>"), lines.index("}")
         self.assertEqual(shown.splitlines(), lines[first : last + 1])
 
+    def test_fortran_program_is_the_one_in_the_module(self):
+        (shown,) = re.findall(r"^```fortran\n(.*?)^```", read("README.md"), re.M | re.S)
+        head = read("bindings/fortran/hrad.f90").split("\nmodule hrad\n")[0]
+        lines = [line[4:] for line in head.splitlines() if line.startswith("!   ")]
+        self.assertEqual(shown.splitlines(), lines)
+
     def test_paths_exist(self):
         text = read("README.md")
         paths = re.findall(r"`((?:lib|cli|tests|include|bindings|man|pkgconfig)/[\w./]*)`", text)
