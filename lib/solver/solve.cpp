@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "solver/progress_clock.h"
 #include "solver/schedule.h"
 #include "solver/solution.h"
@@ -147,14 +148,29 @@ class Solver::Run {
     solution_.convergence = Convergence(sweep_tolerance(params_, round));
   }
 
+  // What is linked depends on these.
+  uint64_t key_of_links() const {
+    Hasher key;
+    key.add(solution_.light_hash);
+    key.add(solution_.scale);
+    for (const ParamRow& row : param_table())
+      if (row.is_result) key.add(param_text(params_, row).c_str());
+    return key.value();
+  }
+
   bool link() {
     const auto start = std::chrono::steady_clock::now();
+    state_.journal.begin(key_of_links(), state_.rays);
+    state_.journal.recording = params_.resumable != 0;
     const bool done = by_rows_                        ? link_by_rows()
                       : params_.linking == "clusters" ? link_by_clusters()
                                                       : link_by_pairs();
     solver_.stats_.seconds_linking +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!done) return false;
+    if (!done) {
+      state_.rays = state_.journal.rays_before;
+      return false;
+    }
     solution_.linked = true;
     solution_.rounds_done = 0;
     return sweep(by_rows_ ? first_rounds : 0);

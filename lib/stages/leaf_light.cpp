@@ -243,6 +243,18 @@ std::vector<OrientedPoint> LeafLight::points_over(NodeId leaf, double large) con
   return points;
 }
 
+// The means of the leaves from `first` on.
+void LeafLight::put_means(const std::vector<NodeId>& leaves, size_t first, const LinkStep& step) {
+  std::vector<LinkTable::NewRun> runs;
+  const Link* next = step.links.data();
+  for (uint32_t count : step.counts) {
+    runs.push_back({leaves[first++], {next, count}});
+    next += count;
+  }
+  state_.direct.mean.replace(std::move(runs));
+  state_.rays += step.rays;
+}
+
 bool LeafLight::name_means(const DirectLight& light, double large) {
   const std::vector<NodeId> leaves = new_leaves();
   const size_t count = leaves.size();
@@ -258,6 +270,11 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
       all.push_back(middle_of(forest_, leaves[first + k]));
     }
     state_.rays += grid_.open(all, tools_.team);
+    const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
+    if (const LinkStep* done = state_.journal.done(some, false, is_emitter)) {
+      put_means(leaves, first, *done);
+      continue;
+    }
     std::vector<std::vector<Link>> runs(some);
     std::vector<int64_t> rays(some, 0);
     StageMemory memory(state_);
@@ -279,12 +296,14 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
                                  static_cast<double>(count));
         });
     if (!going_on) return false;
-    std::vector<LinkTable::NewRun> in_place;
+    LinkStep step;
     for (size_t k = 0; k < some; ++k) {
-      state_.rays += rays[k];
-      in_place.push_back({leaves[first + k], {runs[k].data(), runs[k].size()}});
+      step.rays += rays[k];
+      step.counts.push_back(static_cast<uint32_t>(runs[k].size()));
+      step.links.insert(step.links.end(), runs[k].begin(), runs[k].end());
     }
-    state_.direct.mean.replace(std::move(in_place));
+    put_means(leaves, first, step);
+    state_.journal.record(std::move(step));
   }
   return true;
 }
