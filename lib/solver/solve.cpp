@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/hash.h"
 #include "solver/progress_clock.h"
 #include "solver/schedule.h"
 #include "solver/solution.h"
@@ -148,19 +147,10 @@ class Solver::Run {
     solution_.convergence = Convergence(sweep_tolerance(params_, round));
   }
 
-  // What is linked depends on these.
-  uint64_t key_of_links() const {
-    Hasher key;
-    key.add(solution_.light_hash);
-    key.add(solution_.scale);
-    for (const ParamRow& row : param_table())
-      if (row.is_result) key.add(param_text(params_, row).c_str());
-    return key.value();
-  }
-
   bool link() {
     const auto start = std::chrono::steady_clock::now();
-    state_.journal.begin(key_of_links(), state_.rays);
+    state_.journal.begin(hash_of_linking(params_, solution_.light_hash, solution_.scale),
+                         state_.rays);
     state_.journal.recording = params_.resumable != 0;
     const bool done = by_rows_                        ? link_by_rows()
                       : params_.linking == "clusters" ? link_by_clusters()

@@ -55,7 +55,7 @@ bool goes_on_to(const Solver& whole, const SolveCase& c, const Stop& stop,
 void a_stopped_solve_goes_on_from_its_checkpoint() {
   const Folder folder("stops");
   for (const SolveCase& c :
-       {SolveCase{"cornell", "rows", "error", 0.3}, SolveCase{"cornell", "pairs", "error", 0.4},
+       {SolveCase{"cornell", "rows", "error", 0.3}, SolveCase{"furnace", "pairs", "error", 0.3},
         SolveCase{"cornell", "clusters", "error", 0.5}}) {
     const auto whole = solver_of(c);
     whole->solve();
