@@ -159,6 +159,35 @@ void any_content_is_refused_or_harmless() {
   CHECK(refused > 1000);
 }
 
+// Linking takes steps from a file as far as they fit, and does the others.
+void any_steps_are_refused_or_harmless() {
+  const Folder folder("steps");
+  const Frame good = frame_of(good_files()[3]);
+  const size_t steps = static_cast<size_t>(Section::steps);
+  CHECK(!good[steps].empty());
+  std::mt19937_64 random(4);
+  int read = 0;
+  for (int k = 0; k < 60; ++k) {
+    Frame frame = good;
+    std::string& raw = frame[steps][random() % frame[steps].size()].raw;
+    const size_t at = random() % raw.size();
+    raw[at] = static_cast<char>(raw[at] ^ (1 << random() % 8));
+    if (k % 10 == 0) frame[steps].pop_back();
+    write_bytes(folder.file("a.hrad"), file_of(frame));
+    hrad::Solver solver;
+    try {
+      solver.read_checkpoint(folder.file("a.hrad"));
+    } catch (const hrad::Error& error) {
+      CHECK(error.status() == Status::format);
+      continue;
+    }
+    ++read;
+    static_cast<void>(solver.solve());
+    CHECK(solver.leaf_count() > 0);
+  }
+  CHECK(read > 5);
+}
+
 // A good file with one section changed.
 std::string with(Section section, const std::function<void(std::vector<FrameRun>&)>& change,
                  size_t file = 0) {
@@ -266,6 +295,7 @@ int main() {
                               HRAD_TEST(cuts_and_additions_are_found),
                               HRAD_TEST(other_versions_are_named),
                               HRAD_TEST(any_content_is_refused_or_harmless),
+                              HRAD_TEST(any_steps_are_refused_or_harmless),
                               HRAD_TEST(huge_counts_are_refused),
                               HRAD_TEST(bombs_are_refused),
                               HRAD_TEST(impossible_trees_are_refused),
