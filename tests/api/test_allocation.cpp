@@ -214,7 +214,7 @@ void every_allocation_may_fail() {
     int64_t failures = 0;
     // A checkpoint is made of many small pieces: of these a sample.
     for (int i = 0; i < Program::steps; ++i)
-      failures += fail_every_allocation(program, i, i == 15 || i == 16 ? 13 : 1);
+      failures += fail_every_allocation(program, i, i == 15 || i == 16 ? 101 : 1);
     CHECK(failures > 500);  // otherwise nothing was tested
     CHECK(program.hash() == hash);
   }
