@@ -33,6 +33,7 @@ Checkpointing::Checkpointing(Session* session, CheckpointPlan plan)
 void Checkpointing::begin() {
   if (!plan_.path.empty()) {
     check(hrad_set_int(session_->solver(), "checkpoint_keep", plan_.keep));
+    check(hrad_set_int(session_->solver(), "resumable", 1));
     check(hrad_lock_checkpoint(session_->solver(), plan_.path.c_str()));
   }
   if (plan_.restart_auto)
@@ -123,10 +124,11 @@ void Checkpointing::write() {
 // be tried in its time.
 void Checkpointing::write_on_the_way() {
   const hrad_status status = hrad_write_checkpoint(session_->solver(), plan_.path.c_str());
-  if (status < 0)
+  // While there is nothing to keep, the file stays as it is.
+  if (status < 0 && status != HRAD_ERROR_STATE)
     session_->terminal().say("warning: no checkpoint was written: " +
                              std::string(hrad_error_message()));
-  else if (session_->terminal().verbosity() == Verbosity::verbose)
+  else if (status == HRAD_OK && session_->terminal().verbosity() == Verbosity::verbose)
     session_->terminal().say("wrote " + plan_.path);
   if (status == HRAD_OK) sweeps_written_ = -1;
   last_written_ = Clock::now();

@@ -16,8 +16,8 @@ constexpr const char* notes =
     "\n"
     "With --checkpoint, SIGINT, SIGTERM and SIGUSR1 stop the solve with a checkpoint and the exit\n"
     "code 75, as the time limit does; the same command with --restart auto goes on. A second\n"
-    "SIGINT or SIGTERM stops at once. SIGUSR2 writes a checkpoint as soon as a sweep ends. A stop\n"
-    "while links are made or refined loses that stage alone.\n"
+    "SIGINT or SIGTERM stops at once. SIGUSR2 writes a checkpoint and goes on. A stop in a round\n"
+    "of refinement of pairs or clusters begins that round anew.\n"
     "\n"
     "Examples: hrad solve room.obj --accuracy 0.01 -o room.vtu -o room.csv\n"
     "          hrad solve room.obj --checkpoint room.hrad --restart auto --time-limit 1:55:00";

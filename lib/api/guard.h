@@ -26,7 +26,7 @@ struct hrad_solver {
   bool solving = false;
   // It is waiting for the progress function, on the thread that runs that.
   std::atomic<bool> reporting{false};
-  std::thread::id reporting_thread;
+  std::atomic<std::thread::id> reporting_thread{};
   const char* callback_that_threw = nullptr;
 };
 

@@ -43,6 +43,10 @@ class Emitters {
   const std::vector<int32_t>& tops() const { return tops_; }
   // Number of the emitter that a root belongs to, or of the group of a cluster; -1: it is none.
   int32_t of_node(NodeId id) const { return of_node_[id]; }
+  // Whether any node can be the source of links from emitters: one that there is.
+  bool is_emitter(NodeId id) const {
+    return id >= 0 && static_cast<size_t>(id) < of_node_.size() && of_node_[id] >= 0;
+  }
   // About the emitter's form factor at x on a surface of this normal, 0 behind a horizon: a matter
   // of geometry alone, whether it is seen or not.
   static double rough_factor(const Emitter& emitter, Vec3 x, Vec3 normal);

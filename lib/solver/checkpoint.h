@@ -24,8 +24,9 @@ namespace hrad {
 struct CheckpointView {
   const Params& params;
   const Scene& scene;
-  bool begun;          // a solve was: the result parameters hold
-  const State* state;  // nullptr: nothing is linked
+  bool begun;                  // a solve was: the result parameters hold
+  const State* state;          // nullptr: nothing is linked
+  const LinkJournal* journal;  // of linking that is under way; nullptr: none
   int64_t rays, pairs;
   const SolveProgress& progress;
   const Stats& stats;
@@ -47,7 +48,9 @@ struct CheckpointContent {
   PowerBalance balance;
   Inspection inspection;
   int64_t rays = 0, pairs = 0;
-  std::string origin;  // the library that wrote it, and its engine
+  uint64_t key_of_steps = 0;
+  std::vector<LinkStep> steps;  // of linking that was under way
+  std::string origin;           // the library that wrote it, and its engine
   std::vector<std::pair<std::string, int64_t>> section_bytes;  // as stored
 };
 

@@ -28,7 +28,7 @@ constexpr Kind kinds[section_count] = {
     {"origin", 1},     {"params", 1},    {"sizes", 1},   {"material", 1},  {"vertices", 4096},
     {"patches", 4096}, {"progress", 1},  {"tree", 4096}, {"nodes", 4096},  {"clusters", 1},
     {"links", 1024},   {"cells", 16384}, {"mean", 4096}, {"points", 4096}, {"ptlinks", 4096},
-    {"own", 16384},    {"light", 4096}};
+    {"own", 16384},    {"light", 4096},  {"steps", 1}};
 
 constexpr FilePlace head_place{"head", 0};
 

@@ -35,6 +35,7 @@ enum class Section {
   point_links,
   own_points,
   light,
+  steps,
   count_of_sections
 };
 constexpr size_t section_count = static_cast<size_t>(Section::count_of_sections);

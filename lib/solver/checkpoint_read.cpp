@@ -56,6 +56,9 @@ class Reading {
         Section::light, sizes_.nodes(),
         [&](int64_t first, int64_t end, PackedReader& bytes) { light.unpack(bytes, first, end); });
     light.finish(source_.place(Section::light));
+    source_.read(Section::steps, sizes_.steps, [&](int64_t, int64_t, PackedReader& bytes) {
+      content_.steps.push_back(unpack_step(bytes));
+    });
   }
 
  private:

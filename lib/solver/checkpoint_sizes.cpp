@@ -40,16 +40,20 @@ constexpr struct {
     {"the number of links of points", &CheckpointSizes::point_links, 0,
      std::numeric_limits<uint32_t>::max()},
     {"the number of own points", &CheckpointSizes::own_points, 0, most_nodes},
+    {"the number of steps", &CheckpointSizes::steps, 0, most_nodes},
 };
 
 }  // namespace
 
-CheckpointSizes sizes_of(const Scene& scene, const State* state) {
+CheckpointSizes sizes_of(const CheckpointView& view) {
+  const Scene& scene = view.scene;
+  const State* state = view.state;
   CheckpointSizes s;
   s.bands = scene.bands;
   s.vertices = static_cast<int64_t>(scene.vertices.size());
   s.materials = static_cast<int64_t>(scene.materials.size());
   s.patches = scene.patch_count();
+  s.steps = view.journal ? static_cast<int64_t>(view.journal->steps().size()) : 0;
   if (!state) return s;
   const auto nodes = static_cast<int64_t>(state->forest.nodes.size());
   s.surfaces = state->forest.surface_count();
@@ -92,6 +96,7 @@ CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source
       {Section::point_links, s.points, 1},
       {Section::point_links, s.point_links, 1},
       {Section::own_points, s.own_points, 9},
+      {Section::steps, s.steps, 3},
       {Section::light, s.nodes(), 8 * static_cast<uint64_t>(s.bands)},
   };
   for (const auto& row : least)
@@ -106,7 +111,7 @@ CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source
       (s.leaves_of_points != 0 && s.leaves_of_points != nodes) ||
       (s.leaves_of_points != 0 && (s.cells == 0 || s.receivers_of_means == 0)) ||
       (s.leaves_of_points == 0 && (s.points > 0 || s.own_points > 0)) ||
-      (s.clusters > 0 && s.clusters >= s.surfaces))
+      (s.clusters > 0 && s.clusters >= s.surfaces) || (s.steps > 0 && nodes > 0))
     fail_format(bytes.place(),
                 "%lld patches, %lld surfaces, %lld clusters, %lld elements and "
                 "what is known of them don't fit together",
@@ -177,6 +182,7 @@ void pack_progress(const CheckpointView& view, PackedBytes& bytes) {
     bytes.varint(static_cast<uint64_t>(count));
   bytes.u64(p.light_hash);
   bytes.u64(p.mesh_hash);
+  bytes.u64(view.journal ? view.journal->key() : 0);
   for (double number :
        {p.scale, p.accuracy_reached, p.convergence.tolerance(), view.stats.error_estimate,
         view.stats.error_standard_error, view.balance.back_share, view.inspection.back_share,
@@ -210,6 +216,7 @@ void unpack_progress(PackedReader& bytes, CheckpointContent& content) {
                 static_cast<long long>(p.earlier_sweeps), static_cast<long long>(stats.iterations));
   p.light_hash = bytes.u64();
   p.mesh_hash = bytes.u64();
+  content.key_of_steps = bytes.u64();
   p.scale = bytes.finite("the scale of thresholds", 1e-6, 1);
   p.accuracy_reached = bytes.finite("the accuracy reached", 0, 1);
   const double tolerance = bytes.finite("the tolerance of sweeps", 0, 1);

@@ -14,10 +14,11 @@ struct CheckpointSizes {
   int64_t receivers_of_means = 0, mean_links = 0;  // nodes, or 0 where there is no direct light
   int64_t leaves_of_points = 0;                    // nodes, or 0 where light is known at no points
   int64_t points = 0, point_links = 0, own_points = 0;
+  int64_t steps = 0;  // of linking that is under way
   int64_t nodes() const { return surfaces + clusters + 4 * families; }
 };
 
-CheckpointSizes sizes_of(const Scene& scene, const State* state);
+CheckpointSizes sizes_of(const CheckpointView& view);
 void pack_sizes(const CheckpointSizes& sizes, PackedBytes& bytes);
 // FORMAT when a section is too short for what it is to hold.
 CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source);
@@ -30,5 +31,8 @@ void unpack_params(PackedReader& bytes, Params& params);
 
 void pack_progress(const CheckpointView& view, PackedBytes& bytes);
 void unpack_progress(PackedReader& bytes, CheckpointContent& content);
+
+void pack_step(const LinkStep& step, PackedBytes& bytes);
+LinkStep unpack_step(PackedReader& bytes);
 
 }  // namespace hrad

@@ -75,7 +75,7 @@ void write_links(CheckpointSink& sink, const State& state, const CheckpointSizes
 }  // namespace
 
 void write_checkpoint(WholeFile& file, const CheckpointView& view, ThreadTeam* team) {
-  const CheckpointSizes sizes = sizes_of(view.scene, view.state);
+  const CheckpointSizes sizes = sizes_of(view);
   // Nothing of a state without links: an empty one stands for it.
   const Scene no_scene;
   const State none(no_scene);
@@ -89,6 +89,9 @@ void write_checkpoint(WholeFile& file, const CheckpointView& view, ThreadTeam* t
   write_links(sink, state, sizes);
   sink.write(Section::light, sizes.nodes(), [&](int64_t first, int64_t end, PackedBytes& bytes) {
     pack_light(state, first, end, bytes);
+  });
+  sink.write(Section::steps, sizes.steps, [&](int64_t first, int64_t, PackedBytes& bytes) {
+    pack_step(view.journal->steps()[static_cast<size_t>(first)], bytes);
   });
   sink.finish();
 }

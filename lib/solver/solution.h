@@ -34,5 +34,7 @@ struct Solver::Solution : SolveProgress {
 
 // Of emission and reflectance.
 uint64_t hash_of_light(const Scene& scene);
+// Of all that decides what is linked, light as the hash of it.
+uint64_t hash_of_linking(const Params& params, uint64_t light, double scale);
 
 }  // namespace hrad

@@ -149,12 +149,18 @@ class Solver::Run {
 
   bool link() {
     const auto start = std::chrono::steady_clock::now();
+    state_.journal.begin(hash_of_linking(params_, solution_.light_hash, solution_.scale),
+                         state_.rays);
+    state_.journal.recording = params_.resumable != 0;
     const bool done = by_rows_                        ? link_by_rows()
                       : params_.linking == "clusters" ? link_by_clusters()
                                                       : link_by_pairs();
     solver_.stats_.seconds_linking +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!done) return false;
+    if (!done) {
+      state_.rays = state_.journal.rays_before;
+      return false;
+    }
     solution_.linked = true;
     solution_.rounds_done = 0;
     return sweep(by_rows_ ? first_rounds : 0);

@@ -35,6 +35,15 @@ uint64_t hash_of_light(const Scene& scene) {
   return hash.value();
 }
 
+uint64_t hash_of_linking(const Params& params, uint64_t light, double scale) {
+  Hasher hash;
+  hash.add(light);
+  hash.add(scale);
+  for (const ParamRow& row : param_table())
+    if (row.is_result) hash.add(param_text(params, row).c_str());
+  return hash.value();
+}
+
 Solver::Solver() = default;
 Solver::~Solver() = default;
 

@@ -40,11 +40,17 @@ void Solver::write_checkpoint(const std::string& path) {
   const Inspection no_inspection;
   const Solution* s = solution_.get();
   const SolveProgress* progress = s ? static_cast<const SolveProgress*>(s) : &no_progress;
-  hrad::write_checkpoint(file,
-                         {params_, scene_, begun_, s && s->linked ? &s->state : nullptr,
-                          s ? s->state.rays : 0, s ? s->state.pairs : 0, *progress, stats_,
-                          s ? s->balance : no_balance, s ? s->inspection : no_inspection},
-                         s && !solving_ ? s->team.get() : nullptr);
+  const bool linked = s && s->linked;
+  // What linking that is under way has counted it will count again.
+  const int64_t rays = linked ? s->state.rays : s ? s->state.journal.rays_before : 0;
+  if (solving_ && !linked && s->state.journal.empty())
+    fail(Status::state, "%s: nothing is linked yet that a checkpoint could keep", path.c_str());
+  hrad::write_checkpoint(
+      file,
+      {params_, scene_, begun_, linked ? &s->state : nullptr,
+       s && !linked ? &s->state.journal : nullptr, rays, s ? s->state.pairs : 0, *progress, stats_,
+       s ? s->balance : no_balance, s ? s->inspection : no_inspection},
+      s && !solving_ ? s->team.get() : nullptr);
   file.commit_keeping(static_cast<int>(params_.checkpoint_keep));
   stats_.seconds_output +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -60,6 +66,8 @@ void Solver::take_over(CheckpointContent& content) {
   State& state = s.state;
   state.rays = content.rays;
   state.pairs = content.pairs;
+  state.journal =
+      LinkJournal::restored(content.key_of_steps, content.rays, std::move(content.steps));
   if (!content.state) return;
   const int64_t before = bytes_of(state);
   state.forest = std::move(content.state->forest);

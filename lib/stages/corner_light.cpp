@@ -2,6 +2,7 @@
 #include "stages/corner_light.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "links/element.h"
@@ -11,6 +12,8 @@ namespace hrad {
 namespace {
 
 constexpr int64_t corners_of_a_task = 64;
+// Sampled together, a second's work: what a stop in their midst loses.
+constexpr size_t corners_of_a_step = 16384;
 // Corners are moved into their patch by this share of the way to its middle, so that none lies in
 // the plane of a wall, and by so many ray offsets at the most.
 constexpr double inwards = 1e-3;
@@ -117,60 +120,76 @@ void CornerSampler::count_memory() {
 
 bool CornerSampler::sample() {
   count_memory();
-  struct Result {
-    std::vector<Link> links;
-    std::vector<size_t> end;  // of each corner's links
-    std::vector<float> value;
-    int64_t rays = 0;
-  };
   std::vector<OrientedPoint> points;
   for (const Wanted& wanted : wanted_)
     points.push_back({wanted.place, state_.forest.surfaces[wanted.surface].normal});
   state_.rays += grid_.open(points, tools_.team);
-  const int64_t count = static_cast<int64_t>(wanted_.size());
-  const int64_t tasks = (count + corners_of_a_task - 1) / corners_of_a_task;
-  std::vector<Result> results(static_cast<size_t>(tasks));
-  const bool going_on = tools_.team.for_each(
-      tasks,
-      [&](int64_t task, int) {
-        Result& r = results[task];
-        const int64_t last = std::min(count, (task + 1) * corners_of_a_task);
-        for (int64_t k = task * corners_of_a_task; k < last; ++k) {
-          const Wanted& wanted = wanted_[k];
-          double value = sealed;
-          if (!is_sealed(wanted.surface, wanted.place)) {
-            const size_t before = r.links.size();
-            r.rays += light_.sample(points[k], wanted.key, r.links);
-            value = 0;
-            for (size_t l = before; l < r.links.size(); ++l)
-              value +=
-                  static_cast<double>(r.links[l].weight) * brightness_.of_node[r.links[l].source];
-          }
-          r.value.push_back(static_cast<float>(value));
-          r.end.push_back(r.links.size());
-        }
-      },
-      [&](int64_t done) {
-        const double points = static_cast<double>(value_.size()) +
-                              static_cast<double>(done * count) / static_cast<double>(tasks);
-        return tools_.progress(points / static_cast<double>(std::max(expected_, asked())));
-      });
-  if (!going_on) return false;
-  CornerLight& direct = state_.direct;
-  for (Result& r : results) {
-    const size_t before = direct.links.size();
-    direct.links.insert(direct.links.end(), r.links.begin(), r.links.end());
-    for (size_t end : r.end) direct.first.push_back(run_border(before + end));
-    value_.insert(value_.end(), r.value.begin(), r.value.end());
-    state_.rays += r.rays;
-    r = Result{};
-  }
+  for (size_t first = 0; first < points.size(); first += corners_of_a_step)
+    if (!sample_some(points, first, std::min(points.size(), first + corners_of_a_step)))
+      return false;
   for (const Wanted& wanted : wanted_)
     place_.push_back({static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
                       static_cast<float>(wanted.place.z), wanted.surface});
   wanted_.clear();
   count_memory();
   return true;
+}
+
+// Those from first to end-1, unless they were sampled before.
+bool CornerSampler::sample_some(const std::vector<OrientedPoint>& points, size_t first,
+                                size_t end) {
+  const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
+  if (const LinkStep* done = state_.journal.done(end - first, true, is_emitter)) {
+    put(*done);
+    return true;
+  }
+  const int64_t count = static_cast<int64_t>(end - first);
+  const int64_t tasks = (count + corners_of_a_task - 1) / corners_of_a_task;
+  std::vector<LinkStep> results(static_cast<size_t>(tasks));
+  const bool going_on = tools_.team.for_each(
+      tasks,
+      [&](int64_t task, int) {
+        LinkStep& r = results[task];
+        const int64_t last = std::min(count, (task + 1) * corners_of_a_task);
+        for (int64_t at = task * corners_of_a_task; at < last; ++at) {
+          const size_t k = first + static_cast<size_t>(at);
+          const Wanted& wanted = wanted_[k];
+          const size_t before = r.links.size();
+          double value = sealed;
+          if (!is_sealed(wanted.surface, wanted.place)) {
+            r.rays += light_.sample(points[k], wanted.key, r.links);
+            value = 0;
+            for (size_t l = before; l < r.links.size(); ++l)
+              value +=
+                  static_cast<double>(r.links[l].weight) * brightness_.of_node[r.links[l].source];
+          }
+          r.values.push_back(static_cast<float>(value));
+          r.counts.push_back(static_cast<uint32_t>(r.links.size() - before));
+        }
+      },
+      [&](int64_t done) {
+        const double known = static_cast<double>(value_.size()) +
+                             static_cast<double>(done * count) / static_cast<double>(tasks);
+        return tools_.progress(known / static_cast<double>(std::max(expected_, asked())));
+      });
+  if (!going_on) return false;
+  LinkStep step;
+  for (LinkStep& r : results) {
+    step.append(r);
+    r = LinkStep{};
+  }
+  put(step);
+  state_.journal.record(std::move(step));
+  return true;
+}
+
+void CornerSampler::put(const LinkStep& step) {
+  CornerLight& direct = state_.direct;
+  size_t end = direct.links.size();
+  direct.links.insert(direct.links.end(), step.links.begin(), step.links.end());
+  for (uint32_t count : step.counts) direct.first.push_back(run_border(end += count));
+  value_.insert(value_.end(), step.values.begin(), step.values.end());
+  state_.rays += step.rays;
 }
 
 // The last exposed point on the way.

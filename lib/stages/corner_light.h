@@ -53,6 +53,8 @@ class CornerSampler {
     uint64_t key;
     Vec3 place;
   };
+  bool sample_some(const std::vector<OrientedPoint>& points, size_t first, size_t end);
+  void put(const LinkStep& step);
   void count_memory();
   Vec3 point_of(int32_t surface, LatticePoint point) const;
   Vec3 moved_inwards(int32_t surface, Vec3 on) const;

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "base/hash.h"
-#include "base/low_discrepancy.h"
-#include "base/triangle_points.h"
 #include "links/element.h"
 #include "stages/state_memory.h"
 
@@ -14,9 +12,6 @@ namespace hrad {
 namespace {
 
 constexpr int64_t leaves_of_a_task = 256;
-constexpr size_t leaves_of_a_batch = 8192;
-constexpr size_t fewest_points_of_a_mean = 6;
-constexpr int tries_of_a_mean = 16 * points_of_a_mean;
 
 // Weights of corners, middles of edges and centroid. Light is not linear between the corners, and
 // those lie in creases: their mean alone would be too dark. With the centroid the mean of every
@@ -221,72 +216,6 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
     runs.push_back({leaves[k], {r.links.data() + begin, r.end[in_task] - begin}});
   }
   state_.direct.mean.replace(std::move(runs));
-}
-
-std::vector<OrientedPoint> LeafLight::points_over(NodeId leaf, double large) const {
-  const Node& node = forest_.nodes[leaf];
-  const Surface& surface = forest_.surfaces[node.surface];
-  const Triangle corners = forest_.triangle(node);
-  const Exposure::Part part(tools_.exposure, surface.patch, surface.side, corners);
-  const LowDiscrepancy spread(mix(key_of(forest_, node), tools_.oracle.seed, 0x6d65616eu));
-  const double share = std::sqrt(std::min(1.0, forest_.area(node) / large));
-  const size_t wanted =
-      std::max(fewest_points_of_a_mean, static_cast<size_t>(share * points_of_a_mean));
-  std::vector<OrientedPoint> points;
-  for (int k = 0; k < tries_of_a_mean && points.size() < wanted; ++k) {
-    double p[4], x, y;
-    spread.point(static_cast<uint32_t>(k), p);
-    even_in_triangle(p[0], p[1], &x, &y);
-    const Vec3 place = corners.at(x, y);
-    if (!part.can_be_sealed() || !part.sealed(place)) points.push_back({place, surface.normal});
-  }
-  return points;
-}
-
-bool LeafLight::name_means(const DirectLight& light, double large) {
-  const std::vector<NodeId> leaves = new_leaves();
-  const size_t count = leaves.size();
-  for (size_t first = 0; first < count; first += leaves_of_a_batch) {
-    const size_t some = std::min(leaves_of_a_batch, count - first);
-    std::vector<std::vector<OrientedPoint>> points(some);
-    tools_.team.for_each(static_cast<int64_t>(some), [&](int64_t k, int) {
-      points[k] = points_over(leaves[first + static_cast<size_t>(k)], large);
-    });
-    std::vector<OrientedPoint> all;
-    for (size_t k = 0; k < some; ++k) {
-      all.insert(all.end(), points[k].begin(), points[k].end());
-      all.push_back(middle_of(forest_, leaves[first + k]));
-    }
-    state_.rays += grid_.open(all, tools_.team);
-    std::vector<std::vector<Link>> runs(some);
-    std::vector<int64_t> rays(some, 0);
-    StageMemory memory(state_);
-    const bool going_on = tools_.team.for_each(
-        static_cast<int64_t>(some),
-        [&](int64_t k, int) {
-          const NodeId leaf = leaves[first + static_cast<size_t>(k)];
-          const uint64_t key = key_of(forest_, forest_.nodes[leaf]);
-          std::vector<Link> links;
-          for (size_t p = 0; p < points[k].size(); ++p)
-            rays[k] += light.sample(points[k][p], mix(key, tools_.oracle.seed, p), links);
-          for (Link& link : links) link.weight /= static_cast<float>(points[k].size());
-          add_up(links, middle_of(forest_, leaf), runs[k]);
-          memory.take(static_cast<int64_t>(runs[k].capacity() * sizeof(Link)),
-                      "direct light of leaves");
-        },
-        [&](int64_t done) {
-          return tools_.progress((static_cast<double>(first) + static_cast<double>(done)) /
-                                 static_cast<double>(count));
-        });
-    if (!going_on) return false;
-    std::vector<LinkTable::NewRun> in_place;
-    for (size_t k = 0; k < some; ++k) {
-      state_.rays += rays[k];
-      in_place.push_back({leaves[first + k], {runs[k].data(), runs[k].size()}});
-    }
-    state_.direct.mean.replace(std::move(in_place));
-  }
-  return true;
 }
 
 }  // namespace hrad

@@ -84,6 +84,18 @@ class RowTracer {
   std::vector<NodeId> hits_;
 };
 
+// The rows of the cells from `first` on.
+void put(State& state, const LinkStep& step, const std::vector<NodeId>& cells, int64_t first) {
+  std::vector<LinkTable::NewRun> runs;
+  const Link* next = step.links.data();
+  for (uint32_t count : step.counts) {
+    runs.push_back({cells[static_cast<size_t>(first++)], {next, count}});
+    next += count;
+  }
+  state.links.replace(std::move(runs));
+  state.rays += step.rays;
+}
+
 }  // namespace
 
 bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
@@ -94,6 +106,16 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
   bool going_on = true;
   for (int64_t first = 0; first < count && going_on; first += rows_of_a_batch) {
     const int64_t end = std::min(count, first + rows_of_a_batch);
+    const auto is_element = [&](NodeId source) {
+      return source >= 0 && static_cast<size_t>(source) < forest.nodes.size() &&
+             !Forest::is_cluster(forest.nodes[source]);
+    };
+    if (const LinkStep* done =
+            state.journal.done(static_cast<size_t>(end - first), false, is_element)) {
+      put(state, *done, cells, first);
+      memory.settle();
+      continue;
+    }
     const int64_t tasks = (end - first + rows_of_a_task - 1) / rows_of_a_task;
     std::vector<int64_t> rays(static_cast<size_t>(tasks), 0);
     std::vector<std::vector<Link>> rows(static_cast<size_t>(end - first));
@@ -118,11 +140,16 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
               (static_cast<double>(first) + static_cast<double>(done * rows_of_a_task)) /
               static_cast<double>(count + rows_of_a_task));
         });
-    for (int64_t r : rays) state.rays += r;
     if (!going_on) break;
-    std::vector<LinkTable::NewRun> runs;
-    for (int64_t k = first; k < end; ++k) runs.push_back({cells[k], rows[k - first]});
-    state.links.replace(std::move(runs));
+    LinkStep step;
+    for (int64_t r : rays) step.rays += r;
+    for (std::vector<Link>& row : rows) {
+      step.counts.push_back(static_cast<uint32_t>(row.size()));
+      step.links.insert(step.links.end(), row.begin(), row.end());
+      row = std::vector<Link>();
+    }
+    put(state, step, cells, first);
+    state.journal.record(std::move(step));
     memory.settle();
   }
   return going_on;

@@ -31,7 +31,8 @@ struct RowSettings {
 };
 
 // Makes mesh, rows and direct light from a state of roots alone whose exposure is known; leaves
-// B = E. False: stopped by tools.progress, and of no use then until it is cleared.
+// B = E. False: stopped by tools.progress, and of no use then until it is cleared; but what is in
+// the journal spares the next call these steps.
 bool link_rows(State& state, const StageTools& tools, const RowSettings& settings);
 
 }  // namespace hrad

@@ -13,6 +13,7 @@
 #include "links/link_table.h"
 #include "links/oracle.h"
 #include "machine/thread_team.h"
+#include "stages/link_journal.h"
 #include "visibility/exposure.h"
 #include "visibility/visibility.h"
 
@@ -49,6 +50,7 @@ struct State {
   std::vector<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
                                   // links brought
   int64_t rays = 0, pairs = 0;
+  LinkJournal journal;  // of linking by rows, until that is done
   MemoryBudget memory;  // of scene, ray engine, elements and links
 };
 

@@ -24,7 +24,7 @@ int64_t bytes_of_nodes(const State& state) {
          bytes_in(state.forest.nodes) + bytes_in(state.radiosity) + bytes_in(state.irradiance) +
          state.links.bytes() - state.links.bytes_of_links() + bytes_in(state.cells) +
          direct.mean.bytes() - direct.mean.bytes_of_links() + bytes_in(direct.of_leaf) +
-         bytes_in(direct.first) + bytes_in(direct.own);
+         bytes_in(direct.first) + bytes_in(direct.own) + state.journal.bytes();
 }
 
 int64_t bytes_of(const State& state) { return bytes_of_nodes(state) + bytes_of_links(state); }

@@ -110,6 +110,41 @@ static void a_stopped_solve_goes_on_elsewhere(void** state) {
   hrad_destroy(&rest);
 }
 
+struct on_the_way {
+  hrad_solver* solver;
+  int written, refused;
+};
+
+/* In the progress function a checkpoint can be written, and nothing else be done. */
+static int32_t write_on_the_way(const hrad_progress* progress, void* user) {
+  struct on_the_way* way = (struct on_the_way*)user;
+  const hrad_status status = hrad_write_checkpoint(way->solver, path);
+  uint64_t hash;
+  if (status == HRAD_OK) ++way->written;
+  if (status == HRAD_ERROR_STATE) ++way->refused;
+  return hrad_read_checkpoint(way->solver, path) != HRAD_ERROR_STATE ||
+         hrad_lock_checkpoint(way->solver, path) != HRAD_ERROR_STATE ||
+         hrad_state_hash(way->solver, &hash) != HRAD_ERROR_STATE ||
+         (status != HRAD_OK && strcmp(progress->stage, "linking") != 0);
+}
+
+static void the_progress_function_writes(void** state) {
+  hrad_solver *solver = room(0.2), *other = new_solver();
+  struct on_the_way way = {NULL, 0, 0};
+  (void)state;
+  way.solver = solver;
+  assert_ok(hrad_set_int(solver, "checkpoint_keep", 0));
+  assert_ok(hrad_set_int(solver, "resumable", 1));
+  assert_ok(hrad_set_progress(solver, write_on_the_way, &way));
+  assert_ok(hrad_solve(solver));
+  assert_true(way.written > 3);
+  assert_ok(hrad_read_checkpoint(other, path));
+  assert_ok(hrad_solve(other));
+  assert_same_answers(solver, other);
+  hrad_destroy(&solver);
+  hrad_destroy(&other);
+}
+
 static void what_does_not_fit_is_refused(void** state) {
   hrad_solver *solver = room(0.2), *other = room(0.2), *third = new_solver();
   const double dim[3] = {1, 1, 1};
@@ -185,6 +220,7 @@ static void a_lock_keeps_others_away(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(reading_gives_the_solver_that_wrote),
                                      cmocka_unit_test(a_stopped_solve_goes_on_elsewhere),
+                                     cmocka_unit_test(the_progress_function_writes),
                                      cmocka_unit_test(what_does_not_fit_is_refused),
                                      cmocka_unit_test(a_file_is_described_without_a_solver),
                                      cmocka_unit_test(a_lock_keeps_others_away)};

@@ -15,10 +15,10 @@ END = b"hradend\n"
 SECTIONS = [("origin", 1), ("params", 1), ("sizes", 1), ("material", 1), ("vertices", 4096),
             ("patches", 4096), ("progress", 1), ("tree", 4096), ("nodes", 4096), ("clusters", 1),
             ("links", 1024), ("cells", 16384), ("mean", 4096), ("points", 4096), ("ptlinks", 4096),
-            ("own", 16384), ("light", 4096)]
+            ("own", 16384), ("light", 4096), ("steps", 1)]
 SIZES = ["bands", "vertices", "materials", "patches", "surfaces", "clusters", "families", "links",
          "cells", "receivers_of_means", "mean_links", "leaves_of_points", "points", "point_links",
-         "own_points"]
+         "own_points", "steps"]
 DROPPED, TWO_SIDED, BLOCKER = 1, 2, 4
 AT_CORNERS, HALF_WAY, OWN = 0, 1, 2
 FINEST = 15
@@ -59,6 +59,33 @@ def places_of(node):
     return [((3 * c[0] + i) // 6, (3 * c[1] + j) // 6) for c in corners]
 
 
+def runs_of_links(run, receivers):
+    counts = [run.varint() for _ in range(receivers)]
+    codes = iter([run.varint() for _ in range(sum(counts))])
+    first_before, by_weight, links = 0, [], []
+    for count in counts:
+        made = []
+        rays = run.varint() if count else 0
+        source = first_before
+        for k in range(count):
+            code = next(codes)
+            source += 1 + code if rays and k else from_zigzag(code)
+            if rays:
+                made.append([source, as_float(float_bits((1 + run.varint()) / rays))])
+            else:
+                made.append([source, None])
+                by_weight.append(made[-1])
+        if made:
+            first_before = made[0][0]
+        links.append(made)
+    last = {}
+    for link, code in zip(by_weight, run.planes(len(by_weight), 4)):
+        bits = (last.get(link[0], 0) + from_zigzag(code)) & 0xFFFFFFFF
+        last[link[0]] = bits
+        link[1] = as_float(bits)
+    return links
+
+
 class Checkpoint:
     def __init__(self, path):
         with open(path, "rb") as file:
@@ -70,6 +97,7 @@ class Checkpoint:
         self.read_tree()
         self.read_links()
         self.read_light()
+        self.read_steps()
 
     def read_frame(self):
         data = self.data
@@ -170,6 +198,7 @@ class Checkpoint:
                 self.progress[name] = run.varint()
             self.progress["light_hash"], self.progress["mesh_hash"] = struct.unpack(
                 "<QQ", run.take(16))
+            self.progress["key_of_steps"] = struct.unpack("<Q", run.take(8))[0]
             for name in ("scale accuracy_reached tolerance error_estimate error_standard_error "
                          "balance_back_share back_share mean_distance smallest").split():
                 self.progress[name] = run.double()
@@ -216,31 +245,15 @@ class Checkpoint:
     def link_runs(self, name, receivers):
         result = []
         for first, end, run in self.runs(name, receivers):
-            counts = [run.varint() for _ in range(first, end)]
-            codes = iter([run.varint() for _ in range(sum(counts))])
-            first_before, by_weight, links = 0, [], []
-            for count in counts:
-                made = []
-                rays = run.varint() if count else 0
-                source = first_before
-                for k in range(count):
-                    code = next(codes)
-                    source += 1 + code if rays and k else from_zigzag(code)
-                    if rays:
-                        made.append([source, as_float(float_bits((1 + run.varint()) / rays))])
-                    else:
-                        made.append([source, None])
-                        by_weight.append(made[-1])
-                if made:
-                    first_before = made[0][0]
-                links.append(made)
-            last = {}
-            for link, code in zip(by_weight, run.planes(len(by_weight), 4)):
-                bits = (last.get(link[0], 0) + from_zigzag(code)) & 0xFFFFFFFF
-                last[link[0]] = bits
-                link[1] = as_float(bits)
-            result.extend(links)
+            result.extend(runs_of_links(run, end - first))
         return result
+
+    def read_steps(self):
+        self.steps = []
+        for _, _, run in self.runs("steps", self.sizes["steps"]):
+            rays, count = run.varint(), run.varint()
+            values = run.planes(count, 4) if run.byte() else []
+            self.steps.append((rays, [as_float(v) for v in values], runs_of_links(run, count)))
 
     def read_links(self):
         sizes = self.sizes

@@ -17,9 +17,16 @@ using namespace hrad_test;
 
 namespace {
 
-std::string good_file(const SolveCase& c) {
+std::string good_file(const SolveCase& c, bool stopped = false) {
   const Folder folder("good");
   const auto solver = solver_of(c);
+  // In the midst of linking, late.
+  if (stopped) {
+    solver->set_int("resumable", 1);
+    solver->set_progress([](const hrad::Progress& progress) {
+      return progress.stage != std::string("linking") || progress.fraction < 0.8;
+    });
+  }
   solver->solve();
   solver->write_checkpoint(folder.file("a.hrad"));
   return bytes_of_file(folder.file("a.hrad"));
@@ -30,7 +37,8 @@ const std::vector<std::string>& good_files() {
   static const std::vector<std::string> files = {
       good_file({"furnace", "rows", "error", 0.4, "points", 1}),
       good_file({"furnace", "clusters", "error", 0.5}),
-      good_file({"cornell", "rows", "error", 0.5, "points", 1})};
+      good_file({"cornell", "rows", "error", 0.5, "points", 1}),
+      good_file({"furnace", "rows", "error", 0.4, "points", 1}, true)};
   return files;
 }
 
@@ -85,7 +93,7 @@ void every_byte_of_the_head_counts() {
 void every_bit_counts() {
   std::mt19937_64 random(1);
   for (const std::string& file : good_files())
-    for (int k = 0; k < 1500; ++k) {
+    for (int k = 0; k < 1200; ++k) {
       std::string bytes = file;
       const size_t at = random() % bytes.size();
       bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
@@ -125,7 +133,7 @@ void any_content_is_refused_or_harmless() {
   int refused = 0;
   for (const std::string& file : good_files()) {
     const Frame good = frame_of(file);
-    for (int k = 0; k < 1000; ++k) {
+    for (int k = 0; k < 800; ++k) {
       Frame frame = good;
       auto& runs = frame[random() % frame.size()];
       if (runs.empty()) continue;
@@ -151,6 +159,35 @@ void any_content_is_refused_or_harmless() {
   CHECK(refused > 1000);
 }
 
+// Linking takes steps from a file as far as they fit, and does the others.
+void any_steps_are_refused_or_harmless() {
+  const Folder folder("steps");
+  const Frame good = frame_of(good_files()[3]);
+  const size_t steps = static_cast<size_t>(Section::steps);
+  CHECK(!good[steps].empty());
+  std::mt19937_64 random(4);
+  int read = 0;
+  for (int k = 0; k < 60; ++k) {
+    Frame frame = good;
+    std::string& raw = frame[steps][random() % frame[steps].size()].raw;
+    const size_t at = random() % raw.size();
+    raw[at] = static_cast<char>(raw[at] ^ (1 << random() % 8));
+    if (k % 10 == 0) frame[steps].pop_back();
+    write_bytes(folder.file("a.hrad"), file_of(frame));
+    hrad::Solver solver;
+    try {
+      solver.read_checkpoint(folder.file("a.hrad"));
+    } catch (const hrad::Error& error) {
+      CHECK(error.status() == Status::format);
+      continue;
+    }
+    ++read;
+    static_cast<void>(solver.solve());
+    CHECK(solver.leaf_count() > 0);
+  }
+  CHECK(read > 5);
+}
+
 // A good file with one section changed.
 std::string with(Section section, const std::function<void(std::vector<FrameRun>&)>& change,
                  size_t file = 0) {
@@ -172,7 +209,7 @@ std::string with_sizes(size_t which, uint64_t value) {
 }
 
 void huge_counts_are_refused() {
-  for (size_t which = 0; which < 15; ++which)
+  for (size_t which = 0; which < 16; ++which)
     for (uint64_t value : {uint64_t{1} << 20, uint64_t{1} << 31, uint64_t{1} << 40,
                            (uint64_t{1} << 63) - 1, ~uint64_t{0}})
       refuses(with_sizes(which, value), "section 'sizes'");
@@ -258,6 +295,7 @@ int main() {
                               HRAD_TEST(cuts_and_additions_are_found),
                               HRAD_TEST(other_versions_are_named),
                               HRAD_TEST(any_content_is_refused_or_harmless),
+                              HRAD_TEST(any_steps_are_refused_or_harmless),
                               HRAD_TEST(huge_counts_are_refused),
                               HRAD_TEST(bombs_are_refused),
                               HRAD_TEST(impossible_trees_are_refused),

@@ -273,8 +273,8 @@ void sealed_leaves_do_not_darken_their_neighbours() {
   }
 }
 
-// Along the border a slope goes on beyond the means of the elements, by half of the brightest at the
-// most.
+// Along the border a slope goes on beyond the means of the elements, by half of the brightest at
+// the most.
 void values_are_never_negative() {
   Field field(square());
   field.split_unevenly(6, 7);
