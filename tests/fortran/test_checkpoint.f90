@@ -13,11 +13,12 @@ module writer
 
 contains
 
-  ! Writes once and stops.
+  ! Writes once, when there are links to be kept, and stops.
   logical function write_and_stop(progress, context)
     type(hrad_progress), intent(in) :: progress
     class(*), intent(inout), optional :: context
-    write_and_stop = progress%fraction >= 0
+    write_and_stop = progress%stage == "sweep"
+    if (.not. write_and_stop) return
     select type (context)
     type is (written_solver)
       call hrad_write_checkpoint(context%solver, "fortran_stopped.hrad", context%status)
