@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "machine/thread_team.h"
 #include "support/check.h"
+#include "support/sanitized.h"
 
 using hrad::Error;
 using hrad::Status;
@@ -261,7 +262,7 @@ void binding_is_harmless() {
 // Where there is no room for the stacks of all threads, the constructor says so and leaves nothing
 // behind. (The sanitizers' own memory makes such a limit meaningless.)
 void too_many_threads() {
-#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#if !HRAD_TEST_THREADS && !HRAD_TEST_ADDRESSES
   rlimit before;
   CHECK_EQUAL(getrlimit(RLIMIT_AS, &before), 0);
   rlimit narrow = before;
