@@ -443,9 +443,9 @@ HRAD_API hrad_status hrad_power_balance(const hrad_solver *solver, double *emitt
  * refinement; between sweeps nothing is lost, and with the parameter resumable = 1 the finished steps of
  * linking by rows are kept too. The file appears whole under its name or not at all; what was there
  * before stays as PATH.prev, and older ones as PATH.prev2 and so on, as the parameter checkpoint_keep
- * says (0: none).
- * While it is written PATH.lock keeps other writers away. Errors: FILE (what failed; the old file is whole), also when another process
- * holds the lock; STATE from the progress callback while there is nothing yet to go on from. */
+ * says (0: none). While it is written PATH.lock keeps other writers away. Errors: FILE (what failed; the
+ * old file is whole), also when another process holds the lock; STATE from the progress callback while
+ * there is nothing yet to go on from. */
 HRAD_API hrad_status hrad_write_checkpoint(hrad_solver *solver, const char *path);
 
 /* [C] Locks a checkpoint against other writers, in this and in other processes, before it is first
