@@ -42,10 +42,6 @@ double limit_of(const std::string& text) {
   return seconds;
 }
 
-bool ends_as_checkpoint(const std::string& path) {
-  return path.size() > 5 && path.compare(path.size() - 5, 5, ".hrad") == 0;
-}
-
 }  // namespace
 
 void CheckpointOptions::add_to(Arguments* arguments) {
@@ -64,7 +60,7 @@ void CheckpointOptions::add_to(Arguments* arguments) {
 CheckpointPlan CheckpointOptions::check(const RunOptions& run, const OutputFiles& files) const {
   CheckpointPlan plan;
   plan.path = checkpoint_.value_or("");
-  if (checkpoint_ && !ends_as_checkpoint(plan.path))
+  if (checkpoint_ && !is_checkpoint(plan.path))
     fail_usage("solve",
                "--checkpoint takes a file whose name ends with .hrad, not '" + plan.path + "'");
   if (interval_) plan.interval_seconds = interval_of(*interval_);

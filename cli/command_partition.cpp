@@ -1,5 +1,6 @@
 // hrad partition: what a cluster would have to do, before it is booked. CLI: public headers only.
 #include <algorithm>
+#include <iterator>
 
 #include "command.h"
 #include "exit_code.h"
@@ -135,7 +136,7 @@ int run_partition(const std::vector<std::string>& arguments, Output* output) {
   parser.add_flag("--json", &as_json, "Print one JSON object instead of tables");
   if (!parser.parse(arguments, &output->text())) return 0;
   const int32_t ranks = ranks_of(ranks_text);
-  if (method && *method != "cost" && *method != "grid")
+  if (method && std::find(std::begin(methods), std::end(methods), *method) == std::end(methods))
     fail_usage("partition", "--method " + *method + ": cost or grid is meant");
   options.check();
   files.check(options.scene_is_file() ? options.scene() : "");

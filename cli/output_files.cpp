@@ -53,7 +53,6 @@ std::string ending_of(const std::string& path) {
 }
 
 bool is_picture(const std::string& path) { return ending_of(path) == ".png"; }
-bool is_checkpoint(const std::string& path) { return ending_of(path) == ".hrad"; }
 
 std::string known_endings(OutputFiles::Kind kind) {
   std::string endings;

@@ -86,7 +86,9 @@ void RunOptions::check_launcher() const {
                   "start one process, or say --mpi off if that is what you want");
 }
 
-bool RunOptions::scene_is_checkpoint() const { return ends_with(scene_, ".hrad"); }
+bool is_checkpoint(const std::string& path) { return ends_with(path, ".hrad"); }
+
+bool RunOptions::scene_is_checkpoint() const { return is_checkpoint(scene_); }
 
 bool RunOptions::scene_is_file() const {
   // A built-in name means the built-in scene wherever one works; ./NAME is the file.

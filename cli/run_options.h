@@ -39,6 +39,9 @@ class RunOptions {
   bool two_sided_ = false, flip_ = false, quiet_ = false, verbose_ = false;
 };
 
+// Whether a path names a .hrad file: its ending tells.
+bool is_checkpoint(const std::string& path);
+
 // The built-in scenes, separated by commas; and whether a name is one of them.
 std::string builtin_scene_names();
 bool is_builtin_scene(const std::string& name);

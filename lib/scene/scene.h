@@ -18,6 +18,8 @@ struct Material {
   bool blocker = false;  // blocks light, exchanges none
 };
 
+constexpr int most_bands = 16;
+
 enum PatchFlags : uint8_t { patch_dropped = 1, patch_two_sided = 2, patch_blocker = 4 };
 
 struct Scene {
@@ -28,10 +30,10 @@ struct Scene {
   // Per patch:
   std::vector<std::array<int32_t, 3>> corners;  // indices of vertices
   std::vector<int32_t> material;
-  std::vector<int64_t> face;         // number of the OBJ face, from 0; else the patch's own number
-  std::vector<uint8_t> flags;        // PatchFlags
-  std::vector<double> emission;      // bands values each; those of the material until set apart
-  std::vector<double> reflectance;   // likewise
+  std::vector<int64_t> face;        // number of the OBJ face, from 0; else the patch's own number
+  std::vector<uint8_t> flags;       // PatchFlags
+  std::vector<double> emission;     // bands values each; those of the material until set apart
+  std::vector<double> reflectance;  // likewise
   std::vector<std::string> diagnostics;  // one sentence each
 
   int64_t patch_count() const { return static_cast<int64_t>(corners.size()); }
@@ -51,7 +53,8 @@ struct Scene {
   int32_t add_material(Material m);
   int32_t add_vertex(Vec3 v);
   // face < 0: the patch's own number.
-  void add_patch(int32_t a, int32_t b, int32_t c, int32_t material_number, int64_t face_number = -1);
+  void add_patch(int32_t a, int32_t b, int32_t c, int32_t material_number,
+                 int64_t face_number = -1);
   Box bounds() const;
   int64_t bytes() const;  // of its arrays
 };

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace hrad {
 
@@ -27,8 +26,7 @@ void export_vtu(const Solver& solver, const std::string& path);
 
 // The patches with their owners, and the work that was predicted for each, likewise. ARGUMENT
 // unless the path ends in .vtu.
-void export_partition(const Scene& scene, const std::vector<double>& work,
-                      const PartitionPlan& plan, const std::string& path);
+void export_partition(const Scene& scene, const PartitionPlan& plan, const std::string& path);
 
 // Polygon file, binary little-endian: a mesh with shared vertices; positions as doubles, linear
 // radiosity per band as floats, sRGB colours for display.

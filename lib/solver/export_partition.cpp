@@ -10,8 +10,7 @@
 
 namespace hrad {
 
-void export_partition(const Scene& scene, const std::vector<double>& work,
-                      const PartitionPlan& plan, const std::string& path) {
+void export_partition(const Scene& scene, const PartitionPlan& plan, const std::string& path) {
   if (path.size() < 4 || path.compare(path.size() - 4, 4, ".vtu") != 0)
     fail(Status::argument, "%s: a partition is written as .vtu alone", path.c_str());
   std::vector<int64_t> patches;
@@ -22,7 +21,7 @@ void export_partition(const Scene& scene, const std::vector<double>& work,
       {"CellData", "owner", "Int32", 1, 4,
        [&](int64_t i, std::string& bytes) { put_little_endian(bytes, plan.owners[of(i)]); }},
       {"CellData", "work", "Float64", 1, 8,
-       [&](int64_t i, std::string& bytes) { put_little_endian(bytes, work[of(i)]); }},
+       [&](int64_t i, std::string& bytes) { put_little_endian(bytes, plan.work[of(i)]); }},
       {"CellData", "patch", "Int64", 1, 8,
        [&](int64_t i, std::string& bytes) { put_little_endian(bytes, patches[i]); }},
   };

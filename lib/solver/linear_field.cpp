@@ -7,7 +7,6 @@
 namespace hrad {
 namespace {
 
-constexpr int most_bands = 16;
 // Times that corners are moved: after two the rest is noise.
 constexpr int passes = 2;
 constexpr double least_one_sidedness = 1e-6;  // less is rounding

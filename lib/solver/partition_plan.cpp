@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/draw.h"
 #include "base/frame.h"
@@ -55,19 +56,19 @@ std::vector<double> predicted_work(const Params& params, const State& state,
 }
 
 PartitionPlan plan_partition(const State& state, const VisibilityEngine& engine,
-                             const std::vector<double>& work, const std::string& method,
-                             int32_t ranks) {
+                             std::vector<double> work, const std::string& method, int32_t ranks) {
   const Forest& forest = state.forest;
   const Scene& scene = *forest.scene;
-  const std::vector<PartitionItem> items = partition_items(scene, work);
   PartitionPlan plan;
+  plan.work = std::move(work);
+  const std::vector<PartitionItem> items = partition_items(scene, plan.work);
   plan.owners = owners_of(scene, items, partition_method(method).divide(items, ranks));
   plan.loads = loads_of(scene, items, plan.owners, ranks);
 
   std::vector<int64_t> met(static_cast<size_t>(ranks), 0), of_others = met;
   std::vector<double> weights;
   for (const Surface& surface : forest.surfaces)
-    weights.push_back(work[static_cast<size_t>(surface.patch)]);
+    weights.push_back(plan.work[static_cast<size_t>(surface.patch)]);
   const Draw draw(weights);
   for (int k = 0; k < rays_of_the_sample && draw.total() > 0; ++k) {
     const uint64_t h = mix(static_cast<uint64_t>(k), 0x706172747au);

@@ -19,6 +19,7 @@ std::vector<double> predicted_work(const Params& params, const State& state,
                                    const Inspection& inspection);
 
 struct PartitionPlan {
+  std::vector<double> work;     // per patch, predicted
   std::vector<int32_t> owners;  // per patch
   std::vector<RankLoad> loads;  // per rank
   // Per rank, of the light that comes to it from surfaces, the share that comes from surfaces of
@@ -29,7 +30,6 @@ struct PartitionPlan {
 
 // ARGUMENT for an unknown method. The same for any number of threads.
 PartitionPlan plan_partition(const State& state, const VisibilityEngine& engine,
-                             const std::vector<double>& work, const std::string& method,
-                             int32_t ranks);
+                             std::vector<double> work, const std::string& method, int32_t ranks);
 
 }  // namespace hrad

@@ -11,8 +11,6 @@
 namespace hrad {
 namespace {
 
-constexpr int most_bands = 16;
-
 void check_range(const char* what, int64_t first, int64_t count, int64_t size) {
   if (first < 0 || count < 0 || first > size || count > size - first)
     fail(Status::argument, "%lld %s from %lld on: there are %lld, from 0 on",

@@ -13,8 +13,6 @@
 namespace hrad {
 namespace {
 
-constexpr int most_bands = 16;
-
 double largest_emission(const Scene& scene, int32_t patch) {
   const size_t at = static_cast<size_t>(patch) * scene.bands;
   return *std::max_element(scene.emission.begin() + static_cast<std::ptrdiff_t>(at),

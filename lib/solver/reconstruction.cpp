@@ -9,8 +9,6 @@
 namespace hrad {
 namespace {
 
-constexpr int most_bands = 16;
-
 // Direct light is known at points, and comes on top of what arrives evenly.
 bool has_points(const State& state) { return !state.direct.of_leaf.empty(); }
 

@@ -1,11 +1,10 @@
 // Solving: the stages in the order of the paper's Fig. 1. Floor 8 (solver).
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "base/error.h"
+#include "machine/process_usage.h"
 #include "solver/progress_clock.h"
 #include "solver/schedule.h"
 #include "solver/solution.h"
@@ -24,13 +23,6 @@ namespace {
 // measurement is a sample.
 constexpr double surely_missed = 2, least_measurable = 0.02;
 constexpr int most_tightenings = 2;
-
-double user_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
 
 // The share of a leaf's or a root's area that is exposed.
 void measure_exposure(State& state, const StageTools& tools) {

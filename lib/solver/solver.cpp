@@ -2,12 +2,11 @@
 // Floor 8 (solver).
 #include "solver/solver.h"
 
-#include <sys/resource.h>
-
 #include <chrono>
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "machine/process_usage.h"
 #include "machine/topology.h"
 #include "solver/export.h"
 #include "solver/partition_plan.h"
@@ -19,12 +18,6 @@ namespace {
 
 // What a ray engine takes for a patch while it is built.
 constexpr int64_t kEngineBytesOfPatch = 150;
-
-int64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<int64_t>(usage.ru_maxrss) * 1024;
-}
 
 }  // namespace
 
@@ -89,9 +82,7 @@ PartitionPlan Solver::plan_partition(const std::string& method, int32_t ranks) {
 }
 
 void Solver::export_partition(const std::string& method, int32_t ranks, const std::string& path) {
-  const PartitionPlan plan = plan_partition(method, ranks);
-  hrad::export_partition(scene_, predicted_work(params_, solution_->state, solution_->inspection),
-                         plan, path);
+  hrad::export_partition(scene_, plan_partition(method, ranks), path);
 }
 
 std::string Solver::describe_machine() const {

@@ -10,7 +10,6 @@ namespace hrad {
 namespace {
 
 constexpr int64_t items_of_a_task = 2048;
-constexpr int most_bands = 16;
 
 template <class Body>
 void for_each_part(size_t count, ThreadTeam& team, const Body& body) {

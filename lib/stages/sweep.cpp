@@ -10,7 +10,6 @@ namespace hrad {
 namespace {
 
 constexpr int64_t surfaces_of_a_task = 64;
-constexpr int most_bands = 16;
 
 template <class Body>
 void for_each_surface(const State& state, ThreadTeam& team, Body&& body) {
