@@ -42,8 +42,8 @@ void copy_struct_out(const Struct& from, Struct* to) {
               size - head);
 }
 
-// Takes as much of a caller's struct as its struct_size says is there; the rest is 0. A size that no
-// struct has would cut a pointer in two: it counts up to the alignment before it.
+// Takes as much of a caller's struct as its struct_size says is there; the rest is 0. A size that
+// no struct has would cut a pointer in two: it counts up to the alignment before it.
 template <class Struct>
 Struct copy_struct_in(const Struct* from) {
   Struct to = {};

@@ -1,7 +1,9 @@
 // hrad.h, sections "status", "log" and "create". Floor 9 (api).
+#include <memory>
 #include <string>
 
 #include "api/arguments.h"
+#include "api/create_over.h"
 #include "api/guard.h"
 
 namespace {
@@ -86,6 +88,19 @@ hrad_status hrad_create(hrad_solver** solver) {
   return hrad::api::guarded([&] {
     hrad::api::require(solver, "the place for the new solver");
     *solver = new hrad_solver;
+  });
+}
+
+hrad_status hrad_create_over(hrad::Comm* comm, hrad_solver** solver) {
+  return hrad::api::guarded([&] {
+    // Should there be no room for the solver, the others are still to be told.
+    const std::shared_ptr<hrad::Comm> owned(comm);
+    std::unique_ptr<hrad_solver> made;
+    hrad::api::agreed(*owned, [&] {
+      hrad::api::require(solver, "the place for the new solver");
+      made = std::make_unique<hrad_solver>(owned);
+    });
+    *solver = made.release();
   });
 }
 

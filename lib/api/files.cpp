@@ -12,21 +12,21 @@ hrad_status hrad_write_checkpoint(hrad_solver* solver, const char* path) {
       hrad::api::require(path, "the path of the checkpoint");
       solver->solver.write_checkpoint(path);
     });
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(path, "the path of the checkpoint");
     inside.write_checkpoint(path);
   });
 }
 
 hrad_status hrad_lock_checkpoint(hrad_solver* solver, const char* path) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(path, "the path of the checkpoint");
     inside.lock_checkpoint(path);
   });
 }
 
 hrad_status hrad_read_checkpoint(hrad_solver* solver, const char* path) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(path, "the path of the checkpoint");
     inside.read_checkpoint(path);
   });
@@ -41,7 +41,7 @@ hrad_status hrad_describe_checkpoint(const char* path, char* text, int64_t size,
 }
 
 hrad_status hrad_export(const hrad_solver* solver, const char* path) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require(path, "the path of the export");
     inside.export_file(path);
   });

@@ -4,14 +4,19 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <thread>
 #include <type_traits>
+#include <utility>
 
 #include "base/error.h"
 #include "hrad/hrad.h"
 #include "solver/solver.h"
 
 struct hrad_solver {
+  hrad_solver() = default;
+  explicit hrad_solver(std::shared_ptr<hrad::Comm> comm) : solver(std::move(comm)) {}
+
   hrad::Solver solver;
 
   // Some entry is at work on this solver: a further one comes from a callback or another thread.
@@ -72,6 +77,28 @@ hrad_status guarded(const Body& body) noexcept {
   }
 }
 
+// Brings all ranks to one outcome: ends when every rank's body has, and if one fails, all of them
+// fail with the same status and message.
+template <class Body>
+auto agreed(Comm& comm, const Body& body) -> decltype(body()) {
+  try {
+    if constexpr (std::is_void_v<decltype(body())>) {
+      body();
+      comm.all_go_on();
+    } else {
+      const auto result = body();
+      comm.all_go_on();
+      return result;
+    }
+  } catch (const AgreedError&) {
+    throw;
+  } catch (...) {
+    if (comm.alone()) throw;
+    const hrad_status status = status_of_current_exception();
+    comm.fail_all(static_cast<Status>(status), last_error());
+  }
+}
+
 // Runs a body on a solver: body(handle->solver), with the constness of the handle.
 template <class Handle, class Body>
 hrad_status guarded(Handle* handle, const Body& body) noexcept {
@@ -80,6 +107,13 @@ hrad_status guarded(Handle* handle, const Body& body) noexcept {
     const Entry entry(*handle);
     return body(handle->solver);
   });
+}
+
+// The same for a collective function.
+template <class Handle, class Body>
+hrad_status collective(Handle* handle, const Body& body) noexcept {
+  return guarded(handle,
+                 [&](auto& solver) { return agreed(solver.comm(), [&] { return body(solver); }); });
 }
 
 }  // namespace api

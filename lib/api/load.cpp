@@ -15,7 +15,7 @@ int32_t material_flags(const hrad::Material& material) {
 }  // namespace
 
 hrad_status hrad_add_material(hrad_solver* solver, const hrad_material* material, int32_t* number) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(material, "the material");
     hrad::api::require_struct_size(material->struct_size, "hrad_material");
     const hrad_material given = hrad::api::copy_struct_in(material);
@@ -37,7 +37,7 @@ hrad_status hrad_add_material(hrad_solver* solver, const hrad_material* material
 
 hrad_status hrad_add_patches(hrad_solver* solver, int64_t n_vertices, const double* xyz,
                              int64_t n_triangles, const int64_t* vertex, const int32_t* material) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require_array(xyz, n_vertices, "xyz");
     hrad::api::require_array(vertex, n_triangles, "vertex");
     inside.add_patches(n_vertices, xyz, n_triangles, vertex, material);
@@ -45,14 +45,14 @@ hrad_status hrad_add_patches(hrad_solver* solver, int64_t n_vertices, const doub
 }
 
 hrad_status hrad_load_scene(hrad_solver* solver, const char* path) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(path, "the path of the scene");
     inside.load_scene(path);
   });
 }
 
 hrad_status hrad_make_scene(hrad_solver* solver, const char* name) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(name, "the name of the scene");
     inside.make_scene(name);
   });
@@ -115,7 +115,7 @@ hrad_status hrad_get_diagnostic(const hrad_solver* solver, int64_t index, char* 
 
 hrad_status hrad_set_emission(hrad_solver* solver, int64_t first_patch, int64_t count,
                               const double* emission) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require_array(emission, count, "emission");
     inside.set_emission(first_patch, count, emission);
   });
@@ -123,7 +123,7 @@ hrad_status hrad_set_emission(hrad_solver* solver, int64_t first_patch, int64_t 
 
 hrad_status hrad_set_reflectance(hrad_solver* solver, int64_t first_patch, int64_t count,
                                  const double* reflectance) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require_array(reflectance, count, "reflectance");
     inside.set_reflectance(first_patch, count, reflectance);
   });

@@ -18,7 +18,7 @@ void require_ranks(const char* method, int32_t ranks) {
 }  // namespace
 
 hrad_status hrad_partition(hrad_solver* solver) {
-  return hrad::api::guarded(solver, [](hrad::Solver& inside) { inside.partition(); });
+  return hrad::api::collective(solver, [](hrad::Solver& inside) { inside.partition(); });
 }
 
 hrad_status hrad_patch_owner(const hrad_solver* solver, int64_t patch, int32_t* rank) {

@@ -20,21 +20,21 @@ const hrad::ParamRow& row_of_type(const char* name, int32_t type) {
 }  // namespace
 
 hrad_status hrad_set_int(hrad_solver* solver, const char* name, int64_t value) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(name, "the parameter's name");
     inside.set_int(name, value);
   });
 }
 
 hrad_status hrad_set_double(hrad_solver* solver, const char* name, double value) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(name, "the parameter's name");
     inside.set_double(name, value);
   });
 }
 
 hrad_status hrad_set_text(hrad_solver* solver, const char* name, const char* value) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     hrad::api::require(name, "the parameter's name");
     hrad::api::require(value, "the parameter's value");
     inside.set_text(name, value);

@@ -78,7 +78,7 @@ void copy_leaf(const hrad::LeafView& leaf, int64_t* patch, int64_t* face, int32_
 
 hrad_status hrad_query_patches(const hrad_solver* solver, int32_t quantity, int32_t side,
                                int64_t first, int64_t count, double* out) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     const hrad::Quantity wanted = checked_quantity(quantity);
     check_side(side);
     hrad::api::require_array(out, count, "out");
@@ -89,7 +89,7 @@ hrad_status hrad_query_patches(const hrad_solver* solver, int32_t quantity, int3
 
 hrad_status hrad_query_points(const hrad_solver* solver, int32_t quantity, int32_t side,
                               int64_t count, const int64_t* patch, const double* uv, double* out) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     const hrad::Quantity wanted = checked_quantity(quantity);
     check_side(side);
     hrad::api::require_array(patch, count, "patch");
@@ -102,7 +102,7 @@ hrad_status hrad_query_points(const hrad_solver* solver, int32_t quantity, int32
 
 hrad_status hrad_query_sensors(const hrad_solver* solver, int64_t count, const double* xyz,
                                const double* normal, double* irradiance, double* standard_error) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require_array(xyz, count, "xyz");
     hrad::api::require_array(normal, count, "normal");
     hrad::api::require_array(irradiance, count, "irradiance");
@@ -112,7 +112,7 @@ hrad_status hrad_query_sensors(const hrad_solver* solver, int64_t count, const d
 }
 
 hrad_status hrad_leaf_count(const hrad_solver* solver, int64_t* count) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require(count, "the place for the count");
     *count = inside.leaf_count();
   });
@@ -121,7 +121,7 @@ hrad_status hrad_leaf_count(const hrad_solver* solver, int64_t* count) {
 hrad_status hrad_query_leaves(const hrad_solver* solver, int64_t first, int64_t count,
                               int64_t* patch, int64_t* face, int32_t* side, double* corners_xyz,
                               double* area, double* radiosity) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require_range(first, count, inside.leaf_count(), "leaves");
     const int bands = inside.scene().bands;
     for (int64_t i = 0; i < count; ++i) {
@@ -135,7 +135,7 @@ hrad_status hrad_query_leaves(const hrad_solver* solver, int64_t first, int64_t 
 
 hrad_status hrad_power_balance(const hrad_solver* solver, double* emitted, double* absorbed,
                                double* absorbed_back, double* escaped) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     double terms[4][kMostBands] = {};
     inside.power_balance(terms[0], terms[1], terms[2], terms[3]);
     double* const outputs[4] = {emitted, absorbed, absorbed_back, escaped};

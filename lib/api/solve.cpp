@@ -66,7 +66,7 @@ hrad_status hrad_set_progress(hrad_solver* solver, hrad_progress_function functi
 }
 
 hrad_status hrad_solve(hrad_solver* solver) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) {
     const Solving solving(solver);
     const hrad::Status status = inside.solve();
     if (solver->callback_that_threw)
@@ -83,7 +83,7 @@ void hrad_request_stop(hrad_solver* solver) {
 }
 
 hrad_status hrad_get_stats(const hrad_solver* solver, hrad_stats* stats) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require(stats, "the place for the statistics");
     hrad::api::require_struct_size(stats->struct_size, "hrad_stats");
     const hrad::Stats from = inside.stats();
@@ -122,7 +122,7 @@ hrad_status hrad_get_stats(const hrad_solver* solver, hrad_stats* stats) {
 }
 
 hrad_status hrad_state_hash(const hrad_solver* solver, uint64_t* hash) {
-  return hrad::api::guarded(solver, [&](const hrad::Solver& inside) {
+  return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require(hash, "the place for the hash");
     *hash = inside.state_hash();
   });

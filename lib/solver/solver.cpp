@@ -3,9 +3,11 @@
 #include "solver/solver.h"
 
 #include <chrono>
+#include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "machine/comm_self.h"
 #include "machine/process_usage.h"
 #include "machine/topology.h"
 #include "solver/export.h"
@@ -37,7 +39,8 @@ uint64_t hash_of_linking(const Params& params, uint64_t light, double scale) {
   return hash.value();
 }
 
-Solver::Solver() = default;
+Solver::Solver() : Solver(std::make_shared<CommSelf>()) {}
+Solver::Solver(std::shared_ptr<Comm> comm) : comm_(std::move(comm)) {}
 Solver::~Solver() = default;
 
 void Solver::partition() {

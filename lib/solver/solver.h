@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/vec3.h"
+#include "machine/comm.h"
 #include "machine/file_lock.h"
 #include "scene/scene.h"
 #include "solver/params.h"
@@ -40,7 +41,10 @@ enum class Quantity : int32_t { radiosity = 0, irradiance = 1, emission = 2, net
 class Solver {
  public:
   Solver();
+  // One of the processes that solve together; those of other solvers don't hear of it.
+  explicit Solver(std::shared_ptr<Comm> comm);
   ~Solver();
+  Comm& comm() const { return *comm_; }
 
   // parameters
   void set_int(const std::string& name, int64_t value);
@@ -117,6 +121,7 @@ class Solver {
   void require_open() const;  // the scene may still grow
   void take_over(struct CheckpointContent& content);
 
+  const std::shared_ptr<Comm> comm_;
   Params params_;
   Log log_;
   std::function<bool(const Progress&)> progress_;

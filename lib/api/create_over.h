@@ -1,0 +1,9 @@
+// How the library hrad_mpi makes a solver over a communicator; no part of the public interface.
+// Floor 9 (api).
+#pragma once
+
+#include "hrad/hrad.h"
+#include "machine/comm.h"
+
+// Makes an empty solver that owns comm, also when this fails. [C]
+extern "C" HRAD_API hrad_status hrad_create_over(hrad::Comm* comm, hrad_solver** solver);
