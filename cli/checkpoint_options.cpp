@@ -2,6 +2,7 @@
 #include "checkpoint_options.h"
 
 #include "exit_code.h"
+#include "launcher.h"
 #include "numbers.h"
 
 namespace hrad::cli {
@@ -82,16 +83,21 @@ CheckpointPlan CheckpointOptions::check(const RunOptions& run, const OutputFiles
   if (restart_ && !plan.restart_auto) {
     plan.restart = *restart_;
     if (plan.restart.empty()) fail_usage("solve", "--restart takes a file or 'auto'");
-    files.check_other(plan.restart, "the file to go on from");
   }
-  if (!checkpoint_) return plan;
+  launcher::on_first([&] { check_files(plan, run, files); });
+  return plan;
+}
+
+void CheckpointOptions::check_files(const CheckpointPlan& plan, const RunOptions& run,
+                                    const OutputFiles& files) const {
+  if (!plan.restart.empty()) files.check_other(plan.restart, "the file to go on from");
+  if (!checkpoint_) return;
   if (run.scene_is_file() && same_file(plan.path, run.scene()))
     fail_usage("solve", "--checkpoint " + plan.path +
                             " would write over the input; to go on in one file: "
                             "hrad solve SCENE --checkpoint FILE.hrad --restart auto");
   files.check_other(plan.path, "the checkpoint");
   check_place(plan.path);
-  return plan;
 }
 
 }  // namespace hrad::cli

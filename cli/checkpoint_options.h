@@ -28,6 +28,9 @@ class CheckpointOptions {
   CheckpointPlan check(const RunOptions& run, const OutputFiles& files) const;
 
  private:
+  void check_files(const CheckpointPlan& plan, const RunOptions& run,
+                   const OutputFiles& files) const;
+
   std::optional<std::string> checkpoint_, interval_, keep_, restart_, time_limit_;
 };
 

@@ -7,15 +7,22 @@
 #include <utility>
 
 #include "exit_code.h"
+#include "launcher.h"
 #include "numbers.h"
 #include "signals.h"
 
 namespace hrad::cli {
 namespace {
 
+// On the first of several processes, as everything here that the others could find otherwise.
 bool exists(const std::string& path) {
   struct stat status {};
-  return ::lstat(path.c_str(), &status) == 0;
+  return launcher::of_first(::lstat(path.c_str(), &status) == 0) != 0;
+}
+
+bool is_sound(const std::string& path) {
+  return launcher::of_first(hrad_describe_checkpoint(path.c_str(), nullptr, 0, nullptr) ==
+                            HRAD_OK) != 0;
 }
 
 hrad_stats stats_of(const hrad_solver* solver) {
@@ -51,9 +58,7 @@ bool Checkpointing::restart_from(const std::string& path) {
   } catch (const Failure& failure) {
     // What is damaged can be told from what belongs to another scene: this is a message of the
     // file.
-    if (failure.code() != exit_checkpoint ||
-        hrad_describe_checkpoint(path.c_str(), nullptr, 0, nullptr) == HRAD_OK)
-      throw;
+    if (failure.code() != exit_checkpoint || is_sound(path)) throw;
     session_->terminal().say("warning: " + std::string(failure.what()));
     return false;
   }
@@ -100,8 +105,9 @@ bool Checkpointing::stops() {
 int Checkpointing::solve() {
   const hrad_status status =
       session_->solve_until([this](const hrad_progress&) { return stops(); });
-  if (signals::pending() != 0) throw Interrupted{signals::pending()};
-  if (status == HRAD_STOPPED && out_of_time()) end_with_checkpoint("the time limit is reached");
+  signals::check();
+  const bool is_late = launcher::of_first(out_of_time()) != 0;
+  if (status == HRAD_STOPPED && is_late) end_with_checkpoint("the time limit is reached");
   if (status != HRAD_STOPPED && !plan_.path.empty() && has_news()) write();
   return session_->conclude(status);
 }
@@ -109,7 +115,8 @@ int Checkpointing::solve() {
 // A solve that did nothing leaves the file as it is.
 bool Checkpointing::has_news() const {
   const hrad_stats stats = stats_of(session_->solver());
-  return stats.iterations != sweeps_written_ || stats.converged != converged_written_;
+  return launcher::of_first(stats.iterations != sweeps_written_ ||
+                            stats.converged != converged_written_) != 0;
 }
 
 void Checkpointing::write() {

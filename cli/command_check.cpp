@@ -1,6 +1,7 @@
 // hrad check. CLI: public headers only.
 #include "arguments.h"
 #include "command.h"
+#include "launcher.h"
 #include "session.h"
 
 namespace hrad::cli {
@@ -13,6 +14,7 @@ int run_check(const std::vector<std::string>& arguments, Output* output) {
       "Example: hrad check room.hrad");
   parser.add_positional("FILE.hrad", &path, "A solution or a checkpoint");
   if (!parser.parse(arguments, &output->text())) return 0;
+  if (!launcher::start(launcher::Choice::automatic, launcher::Work::of_the_first)) return 0;
   *output << fetch_text([&](char* text, int64_t size, int64_t* needed) {
     return hrad_describe_checkpoint(path.c_str(), text, size, needed);
   });

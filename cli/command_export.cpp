@@ -1,5 +1,6 @@
 // hrad export. CLI: public headers only.
 #include "command.h"
+#include "exit_code.h"
 #include "output_files.h"
 #include "run_options.h"
 #include "session.h"
@@ -11,11 +12,11 @@ int run_export(const std::vector<std::string>& arguments, Output* output) {
   OutputFiles files(OutputFiles::results);
   Arguments parser("export", "Solve a scene and write the result.",
                    "Example: hrad export cornell --accuracy 0.05 -o cornell.csv");
-  options.add_to(&parser, "export", RunOptions::a_scene);
+  options.add_to(&parser, "export", RunOptions::a_scene_to_solve);
   files.add_to(&parser, "export");
   if (!parser.parse(arguments, &output->text())) return 0;
   if (files.paths().empty()) fail_usage("export", "-o FILE is missing");
-  options.check();
+  if (!options.check()) return exit_done;
   files.check(options.scene_is_file() ? options.scene() : "");
 
   Session session(options);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "command.h"
+#include "exit_code.h"
 #include "json.h"
 #include "numbers.h"
 #include "run_options.h"
@@ -227,7 +228,7 @@ int run_info(const std::vector<std::string>& arguments, Output* output) {
   options.add_to(&parser, "info", RunOptions::a_scene);
   parser.add_flag("--json", &as_json, "Print one JSON object");
   if (!parser.parse(arguments, &output->text())) return 0;
-  options.check();
+  if (!options.check()) return exit_done;
 
   Session session(options);
   session.load();

@@ -1,5 +1,6 @@
 // hrad machine. CLI: public headers only.
 #include "command.h"
+#include "exit_code.h"
 #include "json.h"
 #include "numbers.h"
 #include "run_options.h"
@@ -38,7 +39,7 @@ int run_machine(const std::vector<std::string>& arguments, Output* output) {
   options.add_to(&parser, "machine", RunOptions::no_scene);
   parser.add_flag("--json", &as_json, "Print one JSON object");
   if (!parser.parse(arguments, &output->text())) return 0;
-  options.check();
+  if (!options.check()) return exit_done;
 
   Session session(options);
   const std::string text = fetch_text([&](char* buffer, int64_t size, int64_t* needed) {

@@ -1,6 +1,7 @@
 // hrad params. CLI: public headers only.
 #include "command.h"
 #include "json.h"
+#include "launcher.h"
 #include "numbers.h"
 #include "session.h"
 #include "text_table.h"
@@ -70,6 +71,7 @@ int run_params(const std::vector<std::string>& arguments, Output* output) {
                    "never change\na bit of it. All are set by --set NAME=VALUE.");
   parser.add_flag("--json", &as_json, "Print one JSON object");
   if (!parser.parse(arguments, &output->text())) return 0;
+  if (!launcher::start(launcher::Choice::automatic, launcher::Work::of_the_first)) return 0;
   (as_json ? append_json : append_table)(&output->text(), parameter_table());
   return 0;
 }

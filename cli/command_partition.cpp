@@ -138,7 +138,7 @@ int run_partition(const std::vector<std::string>& arguments, Output* output) {
   const int32_t ranks = ranks_of(ranks_text);
   if (method && std::find(std::begin(methods), std::end(methods), *method) == std::end(methods))
     fail_usage("partition", "--method " + *method + ": cost or grid is meant");
-  options.check();
+  if (!options.check()) return exit_done;
   files.check(options.scene_is_file() ? options.scene() : "");
 
   Session session(options);

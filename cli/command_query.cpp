@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "command.h"
+#include "exit_code.h"
 #include "json.h"
 #include "numbers.h"
 #include "output_files.h"
@@ -209,11 +210,11 @@ int run_query(const std::vector<std::string>& arguments, Output* output) {
   OutputFiles files(OutputFiles::pictures);
   Request request;
   Arguments parser("query", "Solve a scene and print values at patches, points or grids.", notes);
-  options.add_to(&parser, "query", RunOptions::a_scene);
+  options.add_to(&parser, "query", RunOptions::a_scene_to_solve);
   files.add_to(&parser, "query");
   add_to(&parser, &request);
   if (!parser.parse(arguments, &output->text())) return 0;
-  options.check();
+  if (!options.check()) return exit_done;
   if (files.paths().size() > 1) fail_usage("query", "-o is given more than once");
   resolve(&request, !files.paths().empty());
   files.check(options.scene_is_file() ? options.scene() : "");

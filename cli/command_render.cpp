@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "command.h"
+#include "exit_code.h"
 #include "json.h"
 #include "numbers.h"
 #include "output_files.h"
@@ -66,14 +67,14 @@ int run_render(const std::vector<std::string>& arguments, Output* output) {
   OutputFiles files(OutputFiles::pictures);
   bool as_json = false;
   Arguments parser("render", "Solve a scene and write a picture of it.", notes);
-  options.add_to(&parser, "render", RunOptions::a_scene);
+  options.add_to(&parser, "render", RunOptions::a_scene_to_solve);
   files.add_to(&parser, "render");
   render.add_to(&parser);
   parser.add_flag("--json", &as_json, "Print one JSON object: the camera, the exposure");
   if (!parser.parse(arguments, &output->text())) return 0;
   if (files.paths().empty()) fail_usage("render", "-o FILE.png is missing");
   if (files.paths().size() > 1) fail_usage("render", "-o is given more than once");
-  options.check();
+  if (!options.check()) return exit_done;
   render.check();
   files.check(options.scene_is_file() ? options.scene() : "");
 

@@ -1,6 +1,7 @@
 // hrad scene. CLI: public headers only.
 #include "command.h"
 #include "exit_code.h"
+#include "launcher.h"
 #include "output_files.h"
 #include "run_options.h"
 #include "session.h"
@@ -17,6 +18,7 @@ int run_scene(const std::vector<std::string>& arguments, Output* output) {
   files.add_to(&parser, "scene");
   parser.add_flag("--list", &list, "Print the names of the built-in scenes");
   if (!parser.parse(arguments, &output->text())) return 0;
+  if (!launcher::start(launcher::Choice::automatic, launcher::Work::of_the_first)) return 0;
 
   if (list) {
     if (!name.empty() || !files.paths().empty())

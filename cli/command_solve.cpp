@@ -30,12 +30,12 @@ int run_solve(const std::vector<std::string>& arguments, Output* output) {
   CheckpointOptions checkpoints;
   bool as_json = false;
   Arguments parser("solve", "Solve a scene, print a summary, write the result.", notes);
-  options.add_to(&parser, "solve", RunOptions::a_scene);
+  options.add_to(&parser, "solve", RunOptions::a_scene_to_solve);
   files.add_to(&parser, "solve");
   checkpoints.add_to(&parser);
   parser.add_flag("--json", &as_json, "Print one JSON object instead of the summary");
   if (!parser.parse(arguments, &output->text())) return 0;
-  options.check();
+  if (!options.check()) return exit_done;
   files.check(options.scene_is_file() ? options.scene() : "");
   const CheckpointPlan plan = checkpoints.check(options, files);
 

@@ -11,6 +11,7 @@
 #include "command.h"
 #include "exit_code.h"
 #include "hrad/hrad.h"
+#include "launcher.h"
 #include "signals.h"
 #include "text_table.h"
 
@@ -64,9 +65,16 @@ int run(const std::vector<std::string>& arguments, Output* output) {
 }
 
 int complain(int code, const std::string& message, const std::string& hint = {}) {
+  if (!launcher::speaks()) return code;
   std::fprintf(stderr, "hrad: %s\n", message.c_str());
   if (!hint.empty()) std::fprintf(stderr, "hrad: %s\n", hint.c_str());
   return code;
+}
+
+// What met this process alone, whose others may be waiting for it.
+int complain_alone(int code, const std::string& message) {
+  std::fprintf(stderr, "hrad: %s\n", message.c_str());
+  return launcher::finish_alone(code);
 }
 
 int guarded_main(const std::vector<std::string>& arguments) {
@@ -74,16 +82,16 @@ int guarded_main(const std::vector<std::string>& arguments) {
     Output output;
     const int code = run(arguments, &output);
     output.finish();
-    return code;
+    return launcher::finish(code);
   } catch (const Failure& failure) {
-    return complain(failure.code(), failure.what(), failure.hint());
+    return launcher::finish(complain(failure.code(), failure.what(), failure.hint()));
   } catch (const Interrupted& interrupted) {
-    return complain(exit_signal + interrupted.signal,
-                    std::string("stopped: ") + ::strsignal(interrupted.signal));
+    return launcher::finish(complain(exit_signal + interrupted.signal,
+                                     std::string("stopped: ") + ::strsignal(interrupted.signal)));
   } catch (const std::bad_alloc&) {
-    return complain(exit_memory, "out of memory");
+    return complain_alone(exit_memory, "out of memory");
   } catch (const std::exception& error) {
-    return complain(exit_internal, std::string("internal error: ") + error.what());
+    return complain_alone(exit_internal, std::string("internal error: ") + error.what());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "exit_code.h"
+#include "launcher.h"
 
 namespace hrad::cli {
 namespace {
@@ -24,6 +25,11 @@ void Output::relieve() {
 void Output::finish() { write_all(); }
 
 void Output::write_all() {
+  launcher::on_first([this] { write_text(); });
+  text_.clear();
+}
+
+void Output::write_text() const {
   const char* next = text_.data();
   size_t left = text_.size();
   while (left > 0) {
@@ -36,7 +42,6 @@ void Output::write_all() {
     next += written;
     left -= static_cast<size_t>(written);
   }
-  text_.clear();
 }
 
 void guard_standard_streams() {

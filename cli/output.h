@@ -18,7 +18,8 @@ class Output {
   void finish();
 
  private:
-  void write_all();
+  void write_all();  // by the first of all processes
+  void write_text() const;
   std::string text_;
 };
 

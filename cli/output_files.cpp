@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "exit_code.h"
+#include "launcher.h"
 #include "render/picture.h"
 #include "render/png_file.h"
 #include "signals.h"
@@ -128,6 +129,10 @@ void OutputFiles::check_other(const std::string& other, const std::string& what)
 }
 
 void OutputFiles::check(const std::string& input_file) const {
+  launcher::on_first([&] { check_all(input_file); });
+}
+
+void OutputFiles::check_all(const std::string& input_file) const {
   for (const std::string& path : paths_) check_ending(path, kind_);
   for (size_t i = 0; i < paths_.size(); ++i) {
     if (!input_file.empty() && same_file(paths_[i], input_file))

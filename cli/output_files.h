@@ -30,6 +30,8 @@ class OutputFiles {
   const std::vector<std::string>& paths() const { return paths_; }
 
  private:
+  void check_all(const std::string& input_file) const;
+
   Kind kind_;
   std::string command_;
   std::vector<std::string> paths_;

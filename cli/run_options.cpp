@@ -3,12 +3,11 @@
 
 #include <sys/stat.h>
 
-#include <cstdlib>
 #include <set>
 
 #include "exit_code.h"
 #include "hrad/hrad.h"
-#include "numbers.h"
+#include "launcher.h"
 
 namespace hrad::cli {
 namespace {
@@ -23,22 +22,12 @@ bool exists(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0;
 }
 
-// The number of processes that mpirun or srun started this one among, 1 without a launcher.
-int64_t launched_processes() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
-    const char* text = std::getenv(name);
-    int64_t number = 0;
-    if (text != nullptr && read_integer(text, &number) && number >= 1) return number;
-  }
-  return 1;
-}
-
 }  // namespace
 
 void RunOptions::add_to(Arguments* arguments, const std::string& command, Takes takes) {
   command_ = command;
   takes_ = takes;
-  if (takes == a_scene)
+  if (takes != no_scene)
     arguments->add_positional("SCENE", &scene_,
                               "An OBJ file, the name of a built-in scene (hrad scene --list), or a "
                               "solution in a .hrad file");
@@ -58,39 +47,36 @@ void RunOptions::add_to(Arguments* arguments, const std::string& command, Takes 
   arguments->exclude("--quiet", "--verbose");
 }
 
-void RunOptions::check() const {
+bool RunOptions::check() {
   std::set<std::string> names;
   for (const auto& item : parameters())
     if (!names.insert(item.first).second)
       fail_usage(command_, "parameter '" + item.first + "' is given twice");
-  check_launcher();
-  if (takes_ == a_scene) check_scene();
-}
-
-void RunOptions::check_scene() const {
-  if (!scene_is_file() && !is_builtin_scene(scene_))
+  if (!start_launcher()) return false;
+  if (takes_ == no_scene) return true;
+  scene_is_file_ = launcher::of_first(looks_like_file()) != 0;
+  if (!scene_is_file_ && !is_builtin_scene(scene_))
     throw Failure(exit_scene, "'" + scene_ + "' is neither a file nor a built-in scene",
                   "built-in scenes: " + builtin_scene_names());
+  return true;
 }
 
-void RunOptions::check_launcher() const {
+bool RunOptions::start_launcher() const {
+  using namespace launcher;
   const std::string mpi = mpi_.value_or("auto");
   if (mpi != "on" && mpi != "off" && mpi != "auto")
     fail_usage(command_, "--mpi takes on, off or auto, not '" + mpi + "'");
-  if (mpi == "on") throw Failure(exit_mpi, "--mpi on: this build has no MPI");
-  const int64_t processes = launched_processes();
-  if (mpi == "auto" && processes > 1)
-    throw Failure(exit_mpi,
-                  "started as one of " + std::to_string(processes) +
-                      " processes, but this build has no MPI: all would do the same work",
-                  "start one process, or say --mpi off if that is what you want");
+  return start(mpi == "on"    ? Choice::on
+               : mpi == "off" ? Choice::off
+                              : Choice::automatic,
+               takes_ == a_scene_to_solve ? Work::of_all : Work::of_the_first);
 }
 
 bool is_checkpoint(const std::string& path) { return ends_with(path, ".hrad"); }
 
 bool RunOptions::scene_is_checkpoint() const { return is_checkpoint(scene_); }
 
-bool RunOptions::scene_is_file() const {
+bool RunOptions::looks_like_file() const {
   // A built-in name means the built-in scene wherever one works; ./NAME is the file.
   if (is_builtin_scene(scene_)) return false;
   return ends_with(scene_, ".obj") || scene_is_checkpoint() ||

@@ -11,6 +11,7 @@
 
 #include "arguments.h"
 #include "exit_code.h"
+#include "launcher.h"
 #include "numbers.h"
 
 namespace hrad::cli {
@@ -100,7 +101,9 @@ void add_sensor(const std::string& text, Sensors* sensors) {
 }
 
 void add_sensor_file(const std::string& path, Sensors* sensors) {
-  const std::string content = read_file(path);
+  std::string content;
+  launcher::on_first([&] { content = read_file(path); });
+  launcher::share_of_first(&content);
   int64_t number = 0;
   for (std::string_view line : split(content, '\n')) {
     ++number;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "exit_code.h"
+#include "launcher.h"
 #include "numbers.h"
 #include "signals.h"
 
@@ -65,7 +66,7 @@ bool is_result_parameter(const std::string& name) {
 
 Session::Session(const RunOptions& options, bool goes_on)
     : options_(options), goes_on_(goes_on), terminal_(options.verbosity()), progress_(&terminal_) {
-  check(hrad_create(&solver_));
+  check(launcher::create(&solver_));
   try {
     const int32_t level = terminal_.verbosity() == Verbosity::quiet     ? HRAD_LOG_ERROR
                           : terminal_.verbosity() == Verbosity::verbose ? HRAD_LOG_INFO

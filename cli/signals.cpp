@@ -9,6 +9,7 @@
 #include <atomic>
 
 #include "exit_code.h"
+#include "launcher.h"
 
 namespace hrad::cli::signals {
 namespace {
@@ -58,7 +59,8 @@ int pending() { return first_signal.load(); }
 bool take_checkpoint_request() { return checkpoints_wanted.exchange(0) != 0; }
 
 void check() {
-  if (pending() != 0) throw Interrupted{pending()};
+  const auto number = static_cast<int>(launcher::largest(pending()));
+  if (number != 0) throw Interrupted{number};
 }
 
 Watch::Watch(hrad_solver* solver) {

@@ -10,7 +10,8 @@ void install();
 
 // The first signal that asked for a stop, 0 if none did.
 int pending();
-// Throws Interrupted when a signal asked for a stop: called wherever a command may end.
+// Throws Interrupted when a signal asked any process for a stop: called by all, wherever a command
+// may end.
 void check();
 
 // Whether SIGUSR2 came since the last time; it is not kept.

@@ -6,6 +6,8 @@
 
 #include <cstdio>
 
+#include "launcher.h"
+
 namespace hrad::cli {
 namespace {
 
@@ -20,11 +22,13 @@ size_t usable_columns() {
 
 Terminal::Terminal(Verbosity verbosity)
     : verbosity_(verbosity),
-      shows_line_(verbosity != Verbosity::quiet && ::isatty(STDERR_FILENO) != 0) {}
+      shows_line_(verbosity != Verbosity::quiet && launcher::speaks() &&
+                  ::isatty(STDERR_FILENO) != 0) {}
 
 Terminal::~Terminal() { clear_line(); }
 
 void Terminal::say(const std::string& message) {
+  if (!launcher::speaks()) return;
   const std::string line = line_;
   clear_line();
   std::fprintf(stderr, "hrad: %s\n", message.c_str());

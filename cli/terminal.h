@@ -1,5 +1,5 @@
-// What a command says on stderr: messages, and one line that is written over while it works and
-// only when stderr is a terminal. CLI: public headers only.
+// What a command says on stderr, by the first of several processes alone: messages, and one line
+// that is written over while it works and only when stderr is a terminal. CLI: public headers only.
 #pragma once
 
 #include <string>

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "exit_code.h"
+#include "launcher.h"
 
 namespace hrad::cli {
 namespace {
@@ -87,9 +88,11 @@ class Temporary {
 }  // namespace
 
 void write_whole_file(const std::string& path, const void* data, size_t size) {
-  Temporary temporary(path);
-  temporary.write(static_cast<const char*>(data), size);
-  temporary.take_place();
+  launcher::on_first([&] {
+    Temporary temporary(path);
+    temporary.write(static_cast<const char*>(data), size);
+    temporary.take_place();
+  });
 }
 
 }  // namespace hrad::cli

@@ -1,5 +1,5 @@
-// Files that the tool itself writes: whole under their name or not at all. CLI: public headers
-// only.
+// Files that the tool itself writes, the first of several processes alone: whole under their name
+// or not at all. CLI: public headers only.
 #pragma once
 
 #include <cstddef>

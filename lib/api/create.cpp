@@ -91,10 +91,10 @@ hrad_status hrad_create(hrad_solver** solver) {
   });
 }
 
-hrad_status hrad_create_over(hrad::Comm* comm, hrad_solver** solver) {
+hrad_status hrad_create_over_made(hrad_comm_maker make, const void* host, hrad_solver** solver) {
   return hrad::api::guarded([&] {
     // Should there be no room for the solver, the others are still to be told.
-    const std::shared_ptr<hrad::Comm> owned(comm);
+    const std::shared_ptr<hrad::Comm> owned(make(host));
     std::unique_ptr<hrad_solver> made;
     hrad::api::agreed(*owned, [&] {
       hrad::api::require(solver, "the place for the new solver");
@@ -102,6 +102,13 @@ hrad_status hrad_create_over(hrad::Comm* comm, hrad_solver** solver) {
     });
     *solver = made.release();
   });
+}
+
+hrad_status hrad_create_over(hrad::Comm* comm, hrad_solver** solver) {
+  const auto take = [](const void* host) {
+    return static_cast<hrad::Comm*>(const_cast<void*>(host));
+  };
+  return hrad_create_over_made(take, comm, solver);
 }
 
 void hrad_destroy(hrad_solver** solver) {

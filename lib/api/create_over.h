@@ -7,3 +7,9 @@
 
 // Makes an empty solver that owns comm, also when this fails. [C]
 extern "C" HRAD_API hrad_status hrad_create_over(hrad::Comm* comm, hrad_solver** solver);
+
+// The same over what make(host) makes. What that throws becomes the status and message of this
+// call.
+using hrad_comm_maker = hrad::Comm* (*)(const void* host);
+extern "C" HRAD_API hrad_status hrad_create_over_made(hrad_comm_maker make, const void* host,
+                                                      hrad_solver** solver);

@@ -57,6 +57,8 @@ class Comm {
 
   // Of the processes that share this one's memory, this one among them.
   virtual int local_size() const { return 1; }
+  // Whether this process may have threads besides the one that communicates.
+  virtual bool threads_ok() const { return true; }
 
  protected:
   // What each process says before anything is exchanged.
