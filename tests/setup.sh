@@ -7,7 +7,8 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev libpng-dev
   zlib1g-dev)
-optional=()
+# Several processes; everything else works without.
+optional=(libopenmpi-dev openmpi-bin)
 case "${1:-build}" in
   build) ;;
   tests)
@@ -29,7 +30,7 @@ esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "This is no Debian system: make sure that there are a C++17 compiler, cmake, ninja," \
-    "pkg-config, hwloc, zlib, CLI11 and, for pictures, libpng (for the tests also cmocka and python3)." >&2
+    "pkg-config, hwloc, zlib, CLI11 and, for pictures, libpng, for several processes MPI (for the tests also cmocka and python3)." >&2
   exit 0
 fi
 

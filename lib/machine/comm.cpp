@@ -36,7 +36,7 @@ bool Comm::all_go_on(bool mine) {
 }
 
 void Comm::fail_all(Status status, const char* message) {
-  raise();
+  this->raise();
   Word word;
   word.status = static_cast<int32_t>(status);
   agree(word, message);

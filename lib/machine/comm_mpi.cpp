@@ -89,12 +89,22 @@ CommMpi::~CommMpi() {
   int ended = 0;
   MPI_Finalized(&ended);
   if (ended) return;
-  // What was raised since the last agreement is still on its way to the others.
   try {
-    if (!broken_) all_go_on();
+    if (!broken_) settle_the_rest();
   } catch (...) {  // as well as could be
   }
   free_communicators();
+}
+
+// Collective: what was raised since the last agreement is still on its way.
+void CommMpi::settle_the_rest() {
+  Word word;
+  word.raised = has_raised_since_ ? 1 : 0;
+  const std::vector<Word> words = do_tell(word);
+  int others_raised = 0;
+  for (int k = 0; k < size_; ++k)
+    if (k != rank_) others_raised += words[static_cast<size_t>(k)].raised;
+  do_settle(others_raised);
 }
 
 void CommMpi::free_communicators() {
@@ -140,6 +150,7 @@ std::vector<Comm::Word> CommMpi::do_tell(const Word& mine) {
   std::vector<Word> words(static_cast<size_t>(size_));
   check(MPI_Allgather(&mine, numbers, MPI_INT32_T, words.data(), numbers, MPI_INT32_T, data_),
         "MPI_Allgather");
+  has_raised_since_ = false;
   return words;
 }
 
@@ -247,6 +258,7 @@ void CommMpi::do_add_up(Span<uint64_t> values) {
 
 // A message of no bytes to everyone. do_settle of the next agreement sees that it has gone.
 void CommMpi::do_raise() {
+  has_raised_since_ = true;
   for (int step = 1; step < size_; ++step) {
     MPI_Request request = MPI_REQUEST_NULL;
     check(MPI_Isend(nullptr, 0, MPI_BYTE, (rank_ + step) % size_, kSignalTag, signals_, &request),

@@ -59,6 +59,7 @@ class CommMpi final : public Comm {
   template <class Start>
   void in_pieces(int64_t size, const Start& start);
   void wait_for_all(std::vector<MPI_Request>& requests, const char* function);
+  void settle_the_rest();
   void free_communicators();
 
   const int64_t most_bytes_at_once_;
@@ -66,6 +67,7 @@ class CommMpi final : public Comm {
   MPI_Comm signals_ = MPI_COMM_NULL;  // what is raised, which may come at any time
   int rank_ = 0, size_ = 1, local_size_ = 1;
   bool threads_ok_ = true;
+  bool has_raised_since_ = false;       // the last agreement
   bool broken_ = false;                 // MPI has failed: nothing can be agreed any more
   std::vector<Bytes> sent_, received_;  // by the exchange under way
   std::vector<MPI_Request> under_way_, raising_;

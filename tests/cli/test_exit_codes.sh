@@ -38,12 +38,34 @@ grep -q "not converged" err || complain "$ran: nothing said: $(cat err)"
 [ -s part.csv ] || complain "$ran: part.csv was not written"
 holds 'j["converged"] is False and j["status"] == "HRAD_NOT_CONVERGED"'
 
-# MPI is not in this build: one of many processes must not do the work of all.
-refuses 8 "no MPI" solve cornell --mpi on
+# One of many processes that don't find each other must not do the work of all, and what takes one
+# process is the first one's work.
 OMPI_COMM_WORLD_SIZE=2 refuses 8 "one of 2 processes" solve cornell --accuracy 0.1
-PMI_SIZE=3 refuses 8 "one of 3 processes" info cornell
-SLURM_STEP_NUM_TASKS=4 refuses 8 "one of 4 processes" info cornell
-OMPI_COMM_WORLD_SIZE=2 works info cornell --mpi off
+if ! grep -q '^HRAD_MPI:BOOL=ON' "$HRAD_BINARY_DIR/CMakeCache.txt"; then
+  refuses 8 "no MPI" solve cornell --mpi on
+  refuses 8 "no MPI" info cornell --mpi on
+  PMI_SIZE=3 refuses 8 "one of 3 processes" solve cornell
+  SLURM_STEP_NUM_TASKS=4 refuses 8 "one of 4 processes" solve cornell
+  PMIX_RANK=0 refuses 8 "one of several processes" solve cornell
+fi
+for rank in OMPI_COMM_WORLD_RANK PMI_RANK SLURM_PROCID; do
+  count=OMPI_COMM_WORLD_SIZE
+  [ $rank = PMI_RANK ] && count=PMI_SIZE
+  [ $rank = SLURM_PROCID ] && count=SLURM_STEP_NUM_TASKS
+  for command in 'info cornell' 'scene --list' 'machine'; do
+    export $count=2 $rank=0
+    # shellcheck disable=SC2086
+    works $command
+    [ -s out ] || complain "$ran: the first process prints nothing"
+    export $rank=1
+    # shellcheck disable=SC2086
+    works $command
+    if [ -s out ] || [ -s err ]; then complain "$ran: the second process prints $(cat out err)"; fi
+    unset $count $rank
+  done
+done
+OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=1 works info cornell --mpi off
+[ -s out ] || complain "$ran: a process by itself prints nothing"
 OMPI_COMM_WORLD_SIZE=1 works info cornell
 
 # What is said on stdout must arrive there.

@@ -206,7 +206,7 @@ def words_fit_the_tree(tree):
 
 
 def public_functions_are_tested(tree):
-    """Every function of hrad.h is called by name in at least one test."""
+    """Every function of the public headers is called by name in at least one test."""
     called_names = set()
     for path in tree.under("tests/", suffixes=SOURCE):
         if path.startswith(OWN_FOLDER):
@@ -216,8 +216,9 @@ def public_functions_are_tested(tree):
                                 tree.code_matches(path, r"\b(hrad_\w+)\s*\("))
         else:
             called_names.update(re.findall(r"\b(hrad_\w+)\s*\(", tree.text(path)))
-    return [Offence("include/hrad/hrad.h", line, "%s is called by no test" % name)
-            for name, line in tree.public_functions().items() if name not in called_names]
+    return [Offence(header, line, "%s is called by no test" % name)
+            for header in ("include/hrad/hrad.h", "include/hrad/hrad_mpi.h")
+            for name, line in tree.public_functions(header).items() if name not in called_names]
 
 
 RULES = [includes_point_down, outside_sees_only_the_public_header,

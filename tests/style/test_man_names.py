@@ -1,6 +1,6 @@
-# The manual pages name what there is, and nothing else: functions as hrad.h declares them, its
-# constants and fields; commands, options, parameters and built-in scenes as the tool tells them; exit
-# codes as the README does; references to pages that exist.
+# The manual pages name what there is, and nothing else: functions as hrad.h and hrad_mpi.h declare
+# them, their constants and fields; commands, options, parameters and built-in scenes as the tool tells
+# them; exit codes as the README does; references to pages that exist.
 import os
 import re
 import shlex
@@ -69,7 +69,8 @@ def squeezed(prototype):
 
 
 def header():
-    return re.sub(r"/\*.*?\*/", "", read("include/hrad/hrad.h"), flags=re.S)
+    text = read("include/hrad/hrad.h") + read("include/hrad/hrad_mpi.h")
+    return re.sub(r"/\*.*?\*/", "", text, flags=re.S)
 
 
 def declared_functions():

@@ -100,9 +100,8 @@ class Tree:
         for match in re.finditer(pattern, text):
             yield line_of(text, match.start(match.lastindex or 0)), match
 
-    def public_functions(self):
-        """Name -> line of every function declared in hrad.h."""
-        path = "include/hrad/hrad.h"
+    def public_functions(self, path="include/hrad/hrad.h"):
+        """Name -> line of every function that a header exports."""
         if not self.exists(path):
             return {}
         pattern = r"\bHRAD_API\b[^;(]*?\b(hrad_\w+)\s*\("
