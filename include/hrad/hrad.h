@@ -66,7 +66,8 @@
  * hrad_request_stop, and hrad_write_checkpoint in the progress callback.
  *
  * [C] marks collective functions: all ranks of the solver's communicator call them in the same
- * order. [L] marks local ones. A solver made by hrad_create has one rank.
+ * order. [L] marks local ones. A solver made by hrad_create has one rank, one made by hrad_create_mpi
+ * of hrad_mpi.h those of its communicator.
  *
  * TEXT that a function returns goes into a caller's buffer (char *text, int64_t size,
  * int64_t *needed): at most size bytes are written, always ended by NUL when size > 0, and *needed

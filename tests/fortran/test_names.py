@@ -29,6 +29,7 @@ def code_of(text):
 HEADER = re.sub(r"/\*.*?\*/", "", read("include/hrad/hrad.h"), flags=re.S)
 FUNCTIONS = re.findall(r"\bHRAD_API\b[^;(]*?\b(hrad_\w+)\s*\(", HEADER)
 BINDING = read_all("bindings/fortran/*.f90")
+BINDING.pop("bindings/fortran/hrad_mpi.f90")  # of another header, with tests of its own
 MODULE = code_of(BINDING["bindings/fortran/hrad.f90"])
 CODE = {path: code_of(text) for path, text in BINDING.items()}
 TESTS = {path: code_of(text) for path, text in read_all("tests/fortran/test_*.f90").items()}

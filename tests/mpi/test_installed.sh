@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# The library hrad_mpi in the hands of other projects: installed, moved, found by pkg-config and by
+# CMake; its header in every language; and who uses hrad alone needs no MPI.
+set -euo pipefail
+if ! grep -q '^HRAD_MPI:BOOL=ON' "$HRAD_BINARY_DIR/CMakeCache.txt" || ! command -v mpicc >/dev/null; then
+  echo "No MPI in this build."
+  exit 77
+fi
+if grep -q '^CMAKE_C_FLAGS:.*-fsanitize' "$HRAD_BINARY_DIR/CMakeCache.txt"; then
+  echo "mpicc does not link what sanitizers are in."
+  exit 77
+fi
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+cmake --install "$HRAD_BINARY_DIR" --prefix "$folder/before" >installed
+mv before after
+config=$(find after -name hrad-mpi.pc -printf '%h')
+export PKG_CONFIG_PATH=$folder/$config
+library_path=$(dirname "$(find "$folder/after" -name 'libhrad_mpi.[as]*' | head -n 1)")
+export LD_LIBRARY_PATH=$library_path
+
+# The program of the header, with every warning: it compiles as C and C++ and runs.
+sed -n 's/^ \*   //p' "$HRAD_SOURCE_DIR/include/hrad/hrad_mpi.h" >program.c
+grep -q MPI_Init_thread program.c
+read -r -a flags <<<"$(pkg-config --cflags --libs --static hrad-mpi)"
+for standard in c99 c11; do
+  mpicc -std=$standard -Wall -Wextra -Werror -Wstrict-prototypes -Wundef program.c -o program "${flags[@]}"
+done
+mpirun -n 2 ./program
+[[ $(wc -l <cornell.csv) -gt 30 ]]
+cp program.c program.cpp
+read -r -a flags <<<"$(pkg-config --cflags hrad-mpi)"
+for standard in c++11 c++17; do
+  mpicxx -std=$standard -Wall -Wextra -Werror -c program.cpp "${flags[@]}"
+done
+
+# Every function of the header is in the library, and nothing else.
+sed -n 's/^HRAD_API.*[ *]\(hrad_[a-z_]*\)(.*/\1/p' "$HRAD_SOURCE_DIR/include/hrad/hrad_mpi.h" |
+  sort >declared
+[[ $(wc -l <declared) == 2 ]]
+nm --defined-only "$HRAD_BINARY_DIR"/lib/libhrad_mpi.* 2>/dev/null |
+  sed -n 's/^[0-9a-f]* T \(hrad_[a-z_]*\).*$/\1/p' | sort >defined
+diff declared defined
+nm --undefined-only "$HRAD_BINARY_DIR"/lib/libhrad.* 2>/dev/null | grep ' MPI_' && exit 1
+
+# find_package: with the component, behind find_package(MPI), and without either.
+mkdir cmake
+cat >cmake/CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.18)
+project(program LANGUAGES C)
+if(HOW STREQUAL "behind")
+  find_package(MPI REQUIRED COMPONENTS C)
+  find_package(hrad REQUIRED)
+elseif(HOW STREQUAL "component")
+  find_package(hrad REQUIRED COMPONENTS mpi)
+else()
+  find_package(hrad REQUIRED)
+  if(TARGET hrad::hrad_mpi OR TARGET MPI::MPI_C)
+    message(FATAL_ERROR "MPI was looked for though nobody asked")
+  endif()
+  return()
+endif()
+add_executable(program ../program.c)
+target_link_libraries(program PRIVATE hrad::hrad_mpi)
+END
+for how in component behind neither; do
+  cmake -S cmake -B "cmake-$how" -DHOW=$how -DCMAKE_PREFIX_PATH="$folder/after" >configured ||
+    { cat configured && exit 1; }
+  cmake --build "cmake-$how" >built || { cat built && exit 1; }
+  [[ $how == neither ]] || mpirun -n 1 "cmake-$how/program"
+done
+
+# A build without MPI has none of it, and says so to who asks.
+cmake -S "$HRAD_SOURCE_DIR" -B without -DHRAD_TESTS=OFF -DHRAD_EMBREE=OFF -DHRAD_MPI=OFF \
+  -DCMAKE_INSTALL_PREFIX="$folder/prefix" >configured || { cat configured && exit 1; }
+if find without -name 'hrad-mpi.pc' | grep .; then exit 1; fi
+rm -r "$(find after -name hradMpiTargets.cmake -printf '%h')"/hradMpiTargets*.cmake
+if cmake -S cmake -B refused -DHOW=component -DCMAKE_PREFIX_PATH="$folder/after" >configured 2>&1; then
+  echo "a component that is not there was found" >&2
+  exit 1
+fi
+tr -s ' \n' ' ' <configured | grep -q 'built without MPI'
