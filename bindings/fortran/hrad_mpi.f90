@@ -1,6 +1,6 @@
-! hrad_mpi.h: solvers over several processes. Beside module hrad, so that programs of one process need
-! no MPI; programs that use it link the libraries hrad_fortran_mpi and hrad_mpi besides. What hrad_mpi.h
-! says of ranks, MPI and threads holds here too.
+! hrad_mpi.h: solvers over several processes. Beside module hrad, so that programs of one process
+! need no MPI; programs that use it link the libraries hrad_fortran_mpi and hrad_mpi besides. What
+! hrad_mpi.h says of ranks, MPI and threads holds here too.
 module hrad_mpi
   use, intrinsic :: iso_c_binding, only: c_int, c_int32_t, c_null_ptr, c_ptr
   use hrad_constants, only: HRAD_OK
@@ -22,9 +22,9 @@ module hrad_mpi
 contains
 
   ! Makes an empty solver whose ranks are the processes of comm, which is duplicated; give it back
-  ! with hrad_destroy, on all ranks and before mpi_finalize. With module mpi_f08 comm is comm%mpi_val.
-  ! Errors: MPI before mpi_init_thread, after mpi_finalize, or on a thread that may not call MPI;
-  ! ARGUMENT for MPI_COMM_NULL or an intercommunicator; MEMORY.
+  ! with hrad_destroy, on all ranks and before mpi_finalize. Of a communicator of module mpi_f08 take
+  ! comm%mpi_val. Errors: MPI before mpi_init_thread, after mpi_finalize, or on a thread that may
+  ! not call MPI; ARGUMENT for MPI_COMM_NULL or an intercommunicator; MEMORY.
   subroutine hrad_create_mpi(comm, solver, status)
     integer, intent(in) :: comm
     type(hrad_solver), intent(inout) :: solver

@@ -1,10 +1,22 @@
 // The contract of Comm over MPI, on however many ranks mpirun starts: as it is, in pieces of a few
 // bytes, and over half of the ranks.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fstream>
+
 #include "machine/comm_contract.h"
 #include "machine/comm_mpi.h"
 #include "mpi_program.h"
+#include "support/sanitized.h"
 
 namespace {
+
+rlim_t used_address_space() {
+  long long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE));
+}
 
 template <void (*body)(hrad::Comm&)>
 void on_all(MPI_Comm host, int64_t most_bytes_at_once) {
@@ -56,6 +68,33 @@ void what_runs_beside_stays_apart() {
   CHECK_EQUAL(theirs, left);
 }
 
+// Where one rank has no room for what comes, all fail alike before it is sent, and go on without
+// it. (The sanitizers' own memory makes a limit meaningless.)
+void one_rank_is_short_of_memory() {
+#if !HRAD_TEST_THREADS && !HRAD_TEST_ADDRESSES
+  hrad::CommMpi comm(MPI_COMM_WORLD);
+  if (comm.alone()) return;
+  constexpr size_t much = size_t{64} << 20;
+  const int last = comm.size() - 1;
+  const std::string message = "out of memory on rank " + std::to_string(last);
+  hrad::Bytes data(comm.rank() == 0 ? much : 0, 'd');
+  std::vector<hrad::Bytes> to(static_cast<size_t>(comm.size()));
+  to[static_cast<size_t>(last)] = data;
+  rlimit before, narrow;
+  CHECK_EQUAL(getrlimit(RLIMIT_AS, &before), 0);
+  narrow = before;
+  narrow.rlim_cur = used_address_space() + much / 4;
+  if (comm.rank() == last) CHECK_EQUAL(setrlimit(RLIMIT_AS, &narrow), 0);
+  CHECK_FAILS(comm.exchange(to), hrad::Status::memory, message);
+  CHECK_FAILS(comm.gather_all(data), hrad::Status::memory, message);
+  CHECK_FAILS(comm.broadcast(data), hrad::Status::memory, message);
+  CHECK_EQUAL(setrlimit(RLIMIT_AS, &before), 0);
+  comm_contract::all_is_well(comm);
+  comm.broadcast(data);
+  CHECK_EQUAL(data.size(), much);
+#endif
+}
+
 void all_ranks_are_on_this_machine() {
   hrad::CommMpi comm(MPI_COMM_WORLD);
   CHECK_EQUAL(comm.size(), size_of_world());
@@ -91,6 +130,7 @@ int main(int argc, char** argv) {
       COMM_CONTRACT(IN_PIECES),
       COMM_CONTRACT(OVER_HALVES),
       HRAD_TEST(what_runs_beside_stays_apart),
+      HRAD_TEST(one_rank_is_short_of_memory),
       HRAD_TEST(all_ranks_are_on_this_machine),
       HRAD_TEST(what_is_no_group_of_ranks_is_refused),
   };
