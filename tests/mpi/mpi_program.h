@@ -18,6 +18,22 @@ extern "C" {
 #include <hrad/hrad_mpi.h>
 #include <stdio.h>
 
+#include "support/sanitized.h"
+
+/* A leak is told by the name of the module that it is in, if that is still there: MPI's modules
+ * must stay, so that what they leak can be left out of account. */
+#if HRAD_TEST_ADDRESSES
+#ifdef __cplusplus
+extern "C"
+#endif
+    int
+    dlclose(void* handle);
+int dlclose(void* handle) {
+  (void)handle;
+  return 0;
+}
+#endif
+
 static inline int rank_of_world(void) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -162,7 +162,7 @@ static int delete_attribute(MPI_Comm comm, int key, void* value, void* extra) {
 }
 
 static void no_communicator_is_left(void** state) {
-  enum { many = 3000 };
+  enum { many = 500 };
   MPI_Comm host;
   int key = MPI_KEYVAL_INVALID, k;
   (void)state;

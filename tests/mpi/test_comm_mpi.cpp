@@ -12,7 +12,7 @@
 
 namespace {
 
-rlim_t used_address_space() {
+[[maybe_unused]] rlim_t used_address_space() {
   long long pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE));
