@@ -22,9 +22,9 @@ module hrad_mpi
 contains
 
   ! Makes an empty solver whose ranks are the processes of comm, which is duplicated; give it back
-  ! with hrad_destroy, on all ranks and before mpi_finalize. Of a communicator of module mpi_f08 take
-  ! comm%mpi_val. Errors: MPI before mpi_init_thread, after mpi_finalize, or on a thread that may
-  ! not call MPI; ARGUMENT for MPI_COMM_NULL or an intercommunicator; MEMORY.
+  ! with hrad_destroy, on all ranks and before mpi_finalize. Of a communicator of module mpi_f08
+  ! take comm%mpi_val. Errors: MPI before mpi_init_thread, after mpi_finalize, or on a thread that
+  ! may not call MPI; ARGUMENT for MPI_COMM_NULL or an intercommunicator; MEMORY.
   subroutine hrad_create_mpi(comm, solver, status)
     integer, intent(in) :: comm
     type(hrad_solver), intent(inout) :: solver
