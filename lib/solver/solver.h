@@ -114,6 +114,7 @@ class Solver {
  private:
   struct Solution;
   class Run;
+  void deal_out(Solution& solution) const;
   void require_solved() const;
   void measure_if_due() const;
   Stats counts() const;  // stats() with what has been measured already

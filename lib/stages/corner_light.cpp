@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "links/element.h"
 #include "links/pair_samples.h"
+#include "stages/exchange.h"
+#include "stages/open_cubes.h"
 
 namespace hrad {
 namespace {
@@ -121,12 +123,16 @@ void CornerSampler::count_memory() {
 bool CornerSampler::sample() {
   count_memory();
   std::vector<OrientedPoint> points;
-  for (const Wanted& wanted : wanted_)
+  std::vector<KeyedPoint> keyed;
+  for (const Wanted& wanted : wanted_) {
     points.push_back({wanted.place, state_.forest.surfaces[wanted.surface].normal});
-  state_.rays += grid_.open(points, tools_.team);
-  for (size_t first = 0; first < points.size(); first += corners_of_a_step)
-    if (!sample_some(points, first, std::min(points.size(), first + corners_of_a_step)))
-      return false;
+    keyed.push_back({wanted.surface, wanted.key, points.back()});
+  }
+  state_.rays += open_cubes(grid_, keyed, tools_);
+  bool going_on = true;
+  for (size_t first = 0; first < points.size() && going_on; first += corners_of_a_step)
+    going_on = sample_some(points, first, std::min(points.size(), first + corners_of_a_step));
+  if (!tools_.exchange.all_go_on(going_on)) return false;
   for (const Wanted& wanted : wanted_)
     place_.push_back({static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
                       static_cast<float>(wanted.place.z), wanted.surface});

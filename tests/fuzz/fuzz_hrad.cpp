@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "fuzz/target.h"
+#include "machine/comm_self.h"
 #include "solver/checkpoint.h"
 #include "solver/reconstruction.h"
 #include "stages/gather.h"
@@ -40,10 +41,12 @@ void use(hrad::CheckpointContent& content) {
   hrad::ThreadTeam team(1);
   const auto leaves = state.forest.leaves();
   std::vector<double> light(3 * static_cast<size_t>(state.bands));
-  const hrad::Reconstruction linear(state, leaves);
+  hrad::CommSelf alone;
+  hrad::Exchange exchange(alone, std::vector<int32_t>(state.forest.surfaces.size(), 0));
+  const hrad::Reconstruction linear(state, leaves, exchange);
   for (hrad::NodeId leaf : leaves) linear.corners(leaf, light.data());
   hrad::gather(state, team);
-  hrad::push_pull(state, team);
+  hrad::push_pull(state, team, exchange);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "machine/comm_self.h"
 #include "solver/checkpoint.h"
 #include "solver/checkpoint_files.h"
 #include "stages/gather.h"
@@ -51,7 +52,9 @@ std::string refusal_of(const std::string& bytes) {
       hrad::State& state = *content->state;
       hrad::ThreadTeam team(1);
       hrad::gather(state, team);
-      hrad::push_pull(state, team);
+      hrad::CommSelf alone;
+      hrad::Exchange exchange(alone, std::vector<int32_t>(state.forest.surfaces.size(), 0));
+      hrad::push_pull(state, team, exchange);
       CHECK(!state.forest.leaves().empty());
     }
     return "";
