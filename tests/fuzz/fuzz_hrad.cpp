@@ -9,11 +9,11 @@
 
 #include "base/error.h"
 #include "fuzz/target.h"
-#include "machine/comm_self.h"
 #include "solver/checkpoint.h"
 #include "solver/reconstruction.h"
 #include "stages/gather.h"
 #include "stages/sweep.h"
+#include "support/alone.h"
 #include "support/checkpoint_frame.h"
 
 namespace {
@@ -41,12 +41,11 @@ void use(hrad::CheckpointContent& content) {
   hrad::ThreadTeam team(1);
   const auto leaves = state.forest.leaves();
   std::vector<double> light(3 * static_cast<size_t>(state.bands));
-  hrad::CommSelf alone;
-  hrad::Exchange exchange(alone, std::vector<int32_t>(state.forest.surfaces.size(), 0));
-  const hrad::Reconstruction linear(state, leaves, exchange);
+  hrad_test::Alone alone(state);
+  const hrad::Reconstruction linear(state, leaves, alone.exchange);
   for (hrad::NodeId leaf : leaves) linear.corners(leaf, light.data());
   hrad::gather(state, team);
-  hrad::push_pull(state, team, exchange);
+  hrad::push_pull(state, team, alone.exchange);
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 #include <random>
 #include <vector>
 
-#include "machine/comm_self.h"
 #include "solver/checkpoint.h"
 #include "solver/checkpoint_files.h"
 #include "stages/gather.h"
 #include "stages/sweep.h"
+#include "support/alone.h"
 #include "support/checkpoint_frame.h"
 
 using hrad::PackedBytes;
@@ -52,9 +52,8 @@ std::string refusal_of(const std::string& bytes) {
       hrad::State& state = *content->state;
       hrad::ThreadTeam team(1);
       hrad::gather(state, team);
-      hrad::CommSelf alone;
-      hrad::Exchange exchange(alone, std::vector<int32_t>(state.forest.surfaces.size(), 0));
-      hrad::push_pull(state, team, exchange);
+      hrad_test::Alone alone(state);
+      hrad::push_pull(state, team, alone.exchange);
       CHECK(!state.forest.leaves().empty());
     }
     return "";
