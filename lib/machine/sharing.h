@@ -72,6 +72,17 @@ void share_lists(Comm& comm, std::vector<std::vector<T>>& lists, const OwnerOf& 
       });
 }
 
+// Collective. Rank 0's values, on all.
+template <class T>
+void broadcast(Comm& comm, std::vector<T>& values) {
+  if (comm.alone()) return;
+  Bytes bytes;
+  if (comm.rank() == 0) put(bytes, values.data(), values.size());
+  comm.broadcast(bytes);
+  values.resize(bytes.size() / sizeof(T));
+  Taker(bytes).take(values.data(), values.size());
+}
+
 // Collective. Every process's values, one after the other.
 template <class T>
 void unite(Comm& comm, std::vector<T>& values) {

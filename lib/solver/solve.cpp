@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "machine/process_usage.h"
 #include "solver/progress_clock.h"
+#include "solver/same_everywhere.h"
 #include "solver/schedule.h"
 #include "solver/solution.h"
 #include "stages/gather.h"
@@ -294,6 +295,7 @@ Status Solver::solve() {
   if (params_.refine == 0 && !solved())
     fail(Status::state, "there are no links to sweep over: solve once with refine=1 before");
   const double cpu = user_seconds();
+  if (solution_) check_same_everywhere(*comm_, params_, scene_);
   partition();
   begun_ = true;
   // A stop that was asked for before the solve began holds too.

@@ -9,12 +9,14 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "machine/comm_self.h"
+#include "machine/crowd.h"
 #include "machine/process_usage.h"
 #include "machine/sharing.h"
 #include "machine/topology.h"
 #include "partition/partition.h"
 #include "solver/export.h"
 #include "solver/partition_plan.h"
+#include "solver/same_everywhere.h"
 #include "solver/solution.h"
 #include "stages/state_memory.h"
 
@@ -62,6 +64,7 @@ void Solver::partition() {
   if (scene_.patch_count() == 0)
     fail(Status::scene, "the scene has no patches: load, make or add some before solving");
   const auto start = std::chrono::steady_clock::now();
+  check_same_everywhere(*comm_, params_, scene_);
   auto solution = std::make_unique<Solution>(scene_);
   MemoryBudget& memory = solution->state.memory;
   memory.set_limit(params_.max_memory);
@@ -70,8 +73,10 @@ void Solver::partition() {
   // Until its true size is known.
   const int64_t expected = scene_.patch_count() * kEngineBytesOfPatch;
   memory.take(expected, "the structure for rays");
-  const PoolPlan plan =
-      plan_pool(read_topology(), params_.threads, params_.smt != 0, params_.bind != 0);
+  const Topology topology = read_topology();
+  const PoolPlan plan = plan_pool(topology, params_.threads, params_.smt != 0, params_.bind != 0,
+                                  sharers_of_processors(*comm_, topology));
+  warn_of_crowd(topology, plan);
   solution->team = std::make_unique<ThreadTeam>(plan.threads, plan.binding);
   solution->engine =
       make_visibility_engine(scene_, params_.visibility, params_.instruction_set, *solution->team);
@@ -82,6 +87,15 @@ void Solver::partition() {
   solution_ = std::move(solution);
   stats_.seconds_initial +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Solver::warn_of_crowd(const Topology& topology, const PoolPlan& plan) const {
+  const int threads = plan.threads * plan.sharers;
+  if (plan.sharers == 1 || threads <= topology.usable_contexts) return;
+  log_.write(Log::warning,
+             format("%d processes on this node would run %d threads on the same %d processors: "
+                    "start fewer, or give each its own, as by mpirun --map-by slot:PE=%d",
+                    plan.sharers, threads, topology.usable_contexts, plan.threads));
 }
 
 // Gives every patch an owner.
@@ -252,7 +266,12 @@ uint64_t Solver::state_hash() const {
 
 void Solver::export_file(const std::string& path) const {
   const auto start = std::chrono::steady_clock::now();
-  export_solution(*this, path);
+  if (!comm_->alone()) {
+    require_solved();
+    reconstruction();  // by all of them
+  }
+  if (comm_->rank() == 0) export_solution(*this, path);
+  comm_->all_go_on();
   stats_.seconds_output +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -49,7 +49,6 @@ class CommThreads final : public hrad::Comm {
   CommThreads(Hub& hub, int rank) : hub_(hub), rank_(rank) {}
   int rank() const override { return rank_; }
   int size() const override { return hub_.size; }
-  int local_size() const override { return hub_.size; }
 
  protected:
   using Bytes = hrad::Bytes;
