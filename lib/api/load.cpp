@@ -12,24 +12,29 @@ int32_t material_flags(const hrad::Material& material) {
   return (material.two_sided ? HRAD_TWO_SIDED : 0) | (material.blocker ? HRAD_BLOCKER : 0);
 }
 
+hrad::Material material_of(const hrad_material* material, int bands) {
+  hrad::api::require(material, "the material");
+  hrad::api::require_struct_size(material->struct_size, "hrad_material");
+  const hrad_material given = hrad::api::copy_struct_in(material);
+  if (given.flags & ~(HRAD_TWO_SIDED | HRAD_BLOCKER))
+    hrad::fail(hrad::Status::argument,
+               "the flags of the material are %d: only HRAD_TWO_SIDED and HRAD_BLOCKER are known",
+               static_cast<int>(given.flags));
+  hrad::Material made;
+  if (given.name) made.name = given.name;
+  if (given.reflectance) made.reflectance.assign(given.reflectance, given.reflectance + bands);
+  if (given.emission) made.emission.assign(given.emission, given.emission + bands);
+  made.two_sided = (given.flags & HRAD_TWO_SIDED) != 0;
+  made.blocker = (given.flags & HRAD_BLOCKER) != 0;
+  return made;
+}
+
 }  // namespace
 
 hrad_status hrad_add_material(hrad_solver* solver, const hrad_material* material, int32_t* number) {
   return hrad::api::collective(solver, [&](hrad::Solver& inside) {
-    hrad::api::require(material, "the material");
-    hrad::api::require_struct_size(material->struct_size, "hrad_material");
-    const hrad_material given = hrad::api::copy_struct_in(material);
-    if (given.flags & ~(HRAD_TWO_SIDED | HRAD_BLOCKER))
-      hrad::fail(hrad::Status::argument,
-                 "the flags of the material are %d: only HRAD_TWO_SIDED and HRAD_BLOCKER are known",
-                 static_cast<int>(given.flags));
-    const int bands = inside.scene().bands;
     hrad::Material made;
-    if (given.name) made.name = given.name;
-    if (given.reflectance) made.reflectance.assign(given.reflectance, given.reflectance + bands);
-    if (given.emission) made.emission.assign(given.emission, given.emission + bands);
-    made.two_sided = (given.flags & HRAD_TWO_SIDED) != 0;
-    made.blocker = (given.flags & HRAD_BLOCKER) != 0;
+    if (inside.describes_scene()) made = material_of(material, inside.scene().bands);
     const int32_t added = inside.add_material(std::move(made));
     if (number) *number = added;
   });
@@ -38,16 +43,18 @@ hrad_status hrad_add_material(hrad_solver* solver, const hrad_material* material
 hrad_status hrad_add_patches(hrad_solver* solver, int64_t n_vertices, const double* xyz,
                              int64_t n_triangles, const int64_t* vertex, const int32_t* material) {
   return hrad::api::collective(solver, [&](hrad::Solver& inside) {
-    hrad::api::require_array(xyz, n_vertices, "xyz");
-    hrad::api::require_array(vertex, n_triangles, "vertex");
+    if (inside.describes_scene()) {
+      hrad::api::require_array(xyz, n_vertices, "xyz");
+      hrad::api::require_array(vertex, n_triangles, "vertex");
+    }
     inside.add_patches(n_vertices, xyz, n_triangles, vertex, material);
   });
 }
 
 hrad_status hrad_load_scene(hrad_solver* solver, const char* path) {
   return hrad::api::collective(solver, [&](hrad::Solver& inside) {
-    hrad::api::require(path, "the path of the scene");
-    inside.load_scene(path);
+    if (inside.describes_scene()) hrad::api::require(path, "the path of the scene");
+    inside.load_scene(path ? path : "");
   });
 }
 
@@ -116,7 +123,7 @@ hrad_status hrad_get_diagnostic(const hrad_solver* solver, int64_t index, char* 
 hrad_status hrad_set_emission(hrad_solver* solver, int64_t first_patch, int64_t count,
                               const double* emission) {
   return hrad::api::collective(solver, [&](hrad::Solver& inside) {
-    hrad::api::require_array(emission, count, "emission");
+    if (inside.describes_scene()) hrad::api::require_array(emission, count, "emission");
     inside.set_emission(first_patch, count, emission);
   });
 }
@@ -124,7 +131,7 @@ hrad_status hrad_set_emission(hrad_solver* solver, int64_t first_patch, int64_t 
 hrad_status hrad_set_reflectance(hrad_solver* solver, int64_t first_patch, int64_t count,
                                  const double* reflectance) {
   return hrad::api::collective(solver, [&](hrad::Solver& inside) {
-    hrad::api::require_array(reflectance, count, "reflectance");
+    if (inside.describes_scene()) hrad::api::require_array(reflectance, count, "reflectance");
     inside.set_reflectance(first_patch, count, reflectance);
   });
 }

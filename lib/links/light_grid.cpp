@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "machine/sharing.h"
 
 namespace hrad {
 namespace {
@@ -22,6 +23,19 @@ const LightGrid::Candidate* find(const std::vector<LightGrid::Candidate>& candid
                                         return candidate.emitter < number;
                                       });
   return found != candidates.end() && found->emitter == emitter ? &*found : nullptr;
+}
+
+void put_candidates(Bytes& bytes, const std::vector<LightGrid::Candidate>& candidates) {
+  const uint64_t count = candidates.size();
+  put(bytes, &count, 1);
+  put(bytes, candidates.data(), candidates.size());
+}
+
+void take_candidates(Taker& taker, std::vector<LightGrid::Candidate>& candidates) {
+  uint64_t count;
+  taker.take(&count, 1);
+  candidates.resize(count);
+  taker.take(candidates.data(), count);
 }
 
 }  // namespace
@@ -88,7 +102,7 @@ std::vector<int32_t> LightGrid::spread_over(const std::vector<int32_t>& fine) co
   return result;
 }
 
-int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team) {
+int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm) {
   const size_t first_coarse = add_cubes(coarse_, points), first_fine = add_cubes(fine_, points);
   std::vector<std::vector<int32_t>> within(coarse_.cubes.size() - first_coarse);
   for (size_t k = first_fine; k < fine_.cubes.size(); ++k) {
@@ -104,9 +118,18 @@ int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& te
     const size_t first = grid == &coarse_ ? first_coarse : first_fine;
     std::vector<int64_t> rays(grid->cubes.size() - first, 0);
     team.for_each(static_cast<int64_t>(rays.size()), [&](int64_t k, int) {
-      rays[k] = find_emitters(points, *grid, grid->cubes[first + static_cast<size_t>(k)]);
+      if (is_my_turn(comm, static_cast<size_t>(k)))
+        rays[k] = find_emitters(points, *grid, grid->cubes[first + static_cast<size_t>(k)]);
     });
     for (int64_t r : rays) all += r;
+    share(
+        comm, rays.size(),
+        [&](size_t k) { return static_cast<int>(k % static_cast<size_t>(comm.size())); },
+        [&](size_t k, Bytes& bytes) { put_candidates(bytes, grid->cubes[first + k].candidates); },
+        [&](size_t k, Taker& taker) {
+          grid->cubes[first + k].points = std::vector<int32_t>();
+          take_candidates(taker, grid->cubes[first + k].candidates);
+        });
   }
   return all;
 }

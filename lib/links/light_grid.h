@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "links/emitters.h"
+#include "machine/comm.h"
 #include "machine/thread_team.h"
 #include "visibility/visibility.h"
 
@@ -29,8 +30,13 @@ class LightGrid {
   const Emitters& emitters() const { return emitters_; }
 
   // Opens the cubes that these points lie in, if they aren't yet; their pilot rays start at the
-  // points, which should be of all surfaces there. Returns the number of rays.
-  int64_t open(const std::vector<OrientedPoint>& points, ThreadTeam& team);
+  // points, which should be of all surfaces there. Collective: all give the same points, and each
+  // traces rays of some cubes. Returns the number of this process's rays.
+  int64_t open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm);
+  // Whether the cube that a point lies in has yet to be opened.
+  bool is_closed(const OrientedPoint& point) const {
+    return fine_.number.find(key_of(fine_, point)) == fine_.number.end();
+  }
 
   struct Candidate {
     int32_t emitter;

@@ -55,8 +55,8 @@ class Comm {
   // Collective. Over all processes, element by element: exact in any order.
   void add_up(Span<uint64_t> values);
 
-  // Of the processes that share this one's memory, this one among them.
-  virtual int local_size() const { return 1; }
+  // A number for the node that this process runs on, the same for all that share its memory.
+  virtual int node() const { return 0; }
   // Whether this process may have threads besides the one that communicates.
   virtual bool threads_ok() const { return true; }
 

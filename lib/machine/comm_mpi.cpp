@@ -76,9 +76,10 @@ CommMpi::CommMpi(MPI_Comm host, int64_t most_bytes_at_once)
     MPI_Comm local = MPI_COMM_NULL;
     check(MPI_Comm_split_type(data_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &local),
           "MPI_Comm_split_type");
-    const int code = MPI_Comm_size(local, &local_size_);
+    node_ = rank_;
+    const int code = MPI_Bcast(&node_, 1, MPI_INT, 0, local);
     MPI_Comm_free(&local);
-    check(code, "MPI_Comm_size");
+    check(code, "MPI_Bcast");
   } catch (...) {
     free_communicators();
     throw;

@@ -38,7 +38,7 @@ class CommMpi final : public Comm {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  int local_size() const override { return local_size_; }
+  int node() const override { return node_; }               // the lowest rank there
   bool threads_ok() const override { return threads_ok_; }  // from MPI_THREAD_FUNNELED on
 
  protected:
@@ -65,7 +65,7 @@ class CommMpi final : public Comm {
   const int64_t most_bytes_at_once_;
   MPI_Comm data_ = MPI_COMM_NULL;     // collective functions and exchanges
   MPI_Comm signals_ = MPI_COMM_NULL;  // what is raised, which may come at any time
-  int rank_ = 0, size_ = 1, local_size_ = 1;
+  int rank_ = 0, size_ = 1, node_ = 0;
   bool threads_ok_ = true;
   bool has_raised_since_ = false;       // the last agreement
   bool broken_ = false;                 // MPI has failed: nothing can be agreed any more

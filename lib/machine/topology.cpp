@@ -194,18 +194,21 @@ Topology read_topology_from(TopologyKind kind, const std::string& text) {
   return result;
 }
 
-PoolPlan plan_pool(const Topology& topology, int64_t threads, bool smt, bool bind) {
+PoolPlan plan_pool(const Topology& topology, int64_t threads, bool smt, bool bind, int sharers) {
   PoolPlan plan;
+  plan.sharers = sharers;
   const bool chosen = threads > 0;
   if (chosen)
     plan.threads = static_cast<int>(std::min<int64_t>(threads, INT_MAX));
   else
-    plan.threads = std::max(1, smt ? topology.usable_contexts : topology.usable_cores);
+    plan.threads = std::max(1, (smt ? topology.usable_contexts : topology.usable_cores) / sharers);
   plan.reason = explain(topology, plan.threads, chosen, smt);
+  if (sharers > 1)
+    plan.reason += "; " + std::to_string(sharers) + " processes share these processors";
 
   if (topology.synthetic || topology.core_contexts.empty()) {
     if (bind) plan.reason += "; not pinned, because this is not the machine's own topology";
-  } else if (bind) {
+  } else if (bind && sharers == 1) {
     plan.binding = pin(topology, plan.threads);
     plan.pinned = true;
   } else if (topology.caller_confined) {

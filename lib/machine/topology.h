@@ -36,11 +36,13 @@ struct PoolPlan {
   // process's processors instead of inheriting the caller's.
   std::vector<std::vector<int>> binding;
   bool pinned = false;  // binding keeps each worker to its own core or context
-  std::string reason;   // one sentence: why this many
+  int sharers = 1;
+  std::string reason;  // one sentence: why this many
 };
 
-// threads: 0 = from the topology; smt: also use a core's further contexts; bind: pin workers.
-PoolPlan plan_pool(const Topology& topology, int64_t threads, bool smt, bool bind);
+// threads: 0 = from the topology; smt: also use a core's further contexts; bind: pin workers;
+// sharers: processes that divide these processors among themselves.
+PoolPlan plan_pool(const Topology& topology, int64_t threads, bool smt, bool bind, int sharers = 1);
 
 // `name: value` lines for `hrad machine` and hrad_describe_machine.
 std::string describe(const Topology& topology, const PoolPlan& plan);

@@ -61,6 +61,10 @@ std::unique_ptr<CheckpointContent> read_checkpoint(const std::string& bytes, int
 // The same from a file, with its name in messages; FILE when it can't be read.
 std::unique_ptr<CheckpointContent> read_checkpoint_file(const std::string& path, int64_t limit);
 
+// The same from the bytes that are in the file.
+std::unique_ptr<CheckpointContent> read_checkpoint_bytes(const std::string& path,
+                                                         const std::string& bytes, int64_t limit);
+
 // What a file holds, as text for people: one `name: value` a line.
 std::string describe_checkpoint(const std::string& path);
 

@@ -181,6 +181,11 @@ std::unique_ptr<CheckpointContent> read_checkpoint(const std::string& bytes, int
 std::unique_ptr<CheckpointContent> read_checkpoint_file(const std::string& path, int64_t limit) {
   std::string bytes;
   if (!read_file(path, bytes)) fail(Status::file, "%s: there is no such file", path.c_str());
+  return read_checkpoint_bytes(path, bytes, limit);
+}
+
+std::unique_ptr<CheckpointContent> read_checkpoint_bytes(const std::string& path,
+                                                         const std::string& bytes, int64_t limit) {
   try {
     return read_checkpoint(bytes, limit);
   } catch (const Error& error) {

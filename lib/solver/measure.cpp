@@ -9,6 +9,7 @@
 #include "base/triangle_points.h"
 #include "links/element.h"
 #include "solver/ray_gather.h"
+#include "stages/exchange.h"
 
 namespace hrad {
 namespace {
@@ -169,6 +170,7 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
     const size_t before = residuals.size();
     residuals.resize(before + patches_of_a_batch);
     tools.team.for_each(patches_of_a_batch, [&](int64_t k, int worker) {
+      if (!tools.exchange.my_turn(k)) return;
       const size_t number = before + static_cast<size_t>(k);
       const uint64_t h = mix(tools.oracle.seed, number, 0x6572726f72u);
       const size_t pick =
@@ -180,6 +182,10 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
       residuals[number] = r;
     });
     for (size_t k = before; k < residuals.size(); ++k) estimate.rays += residuals[k].rays;
+    std::vector<Residual> drawn(residuals.begin() + static_cast<std::ptrdiff_t>(before),
+                                residuals.end());
+    tools.exchange.share_turns(drawn);
+    std::copy(drawn.begin(), drawn.end(), residuals.begin() + static_cast<std::ptrdiff_t>(before));
     evaluate(residuals, patches.returned, estimate);
     if (estimate.standard_error <
         std::max(precise_share * estimate.error, precise_enough * accuracy))

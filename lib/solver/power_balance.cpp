@@ -7,6 +7,7 @@
 #include "base/low_discrepancy.h"
 #include "base/triangle_points.h"
 #include "solver/measure.h"
+#include "stages/exchange.h"
 
 namespace hrad {
 namespace {
@@ -69,6 +70,7 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
   // evenly over it and its hemisphere.
   const LowDiscrepancy sequence(mix(tools.oracle.seed, 0x706f776572u));
   tools.team.for_each(tasks, [&](int64_t task, int) {
+    if (!tools.exchange.my_turn(task)) return;
     Sums& s = sums[task];
     for (int64_t k = 0; k < rays_of_a_task; ++k) {
       const int64_t number = task * rays_of_a_task + k;
@@ -110,16 +112,18 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
       }
     }
   });
-  int64_t back_rays = 0;
+  for (const Sums& s : sums) balance.rays += s.rays;
+  tools.exchange.share_turns(sums);
+  int64_t rays = 0, back_rays = 0;
   for (const Sums& s : sums) {
-    balance.rays += s.rays;
+    rays += s.rays;
     back_rays += s.back_rays;
     for (int b = 0; b < bands; ++b) {
       balance.absorbed_back[b] += s.back[b];
       balance.escaped[b] += s.out[b];
     }
   }
-  balance.back_share = static_cast<double>(back_rays) / static_cast<double>(balance.rays);
+  balance.back_share = static_cast<double>(back_rays) / static_cast<double>(rays);
   return balance;
 }
 

@@ -57,7 +57,8 @@ void node_values(const State& state, NodeId id, Quantity quantity, double* out) 
 
 const Reconstruction& Solver::reconstruction() const {
   Solution& s = *solution_;
-  if (!s.reconstruction) s.reconstruction = std::make_unique<Reconstruction>(s.state, s.leaves);
+  if (!s.reconstruction)
+    s.reconstruction = std::make_unique<Reconstruction>(s.state, s.leaves, *s.exchange);
   return *s.reconstruction;
 }
 
@@ -76,7 +77,7 @@ void Solver::measure_if_due() const {
   // The light that was solved for is gone from the scene, and can't be measured any more.
   if (hash_of_light(scene_) != solution_->light_hash) return;
   Solution& s = *solution_;
-  s.measure({*s.team, *s.engine, *s.exposure,
+  s.measure({*s.team, *s.exchange, *s.engine, *s.exposure,
              oracle_of_round(params_, s.state, first_rounds, s.scale), [](double) { return true; }},
             params_.accuracy, stats_);
 }

@@ -4,42 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/exchange.h"
 #include "stages/gather.h"
 
 namespace hrad {
 namespace {
 
-// Direct light is known at points, and comes on top of what arrives evenly.
 bool has_points(const State& state) { return !state.direct.of_leaf.empty(); }
-
-// Irradiance that arrives evenly over a cell or leaf; the mean of a small one says more about its
-// corner than that of a large one, whose middle is farther away.
-double even_light(const State& state, NodeId id, double* values) {
-  const Node& node = state.forest.nodes[id];
-  if (!has_points(state)) {
-    const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
-    std::copy(irradiance, irradiance + state.bands, values);
-  } else {
-    float by_row[most_bands];
-    gather_links(state, id, by_row);
-    std::copy(by_row, by_row + state.bands, values);
-  }
-  return node.exposed / std::sqrt(state.forest.area(node));
-}
 
 // What a leaf with points of its own says about its corners weighs less than what others know.
 constexpr double weight_of_own_points = 1e-3;
-
-// Where the three points of its own lie in a leaf, nullptr: it has none.
-const CornerLight::OwnPoint* own_points(const State& state, NodeId leaf) {
-  if (state.forest.nodes[leaf].light_points != at_own_points) return nullptr;
-  const CornerLight& direct = state.direct;
-  const int32_t first = direct.of_leaf[leaf][0];
-  const auto found = std::lower_bound(
-      direct.own.begin(), direct.own.end(), first,
-      [](const CornerLight::OwnPoint& p, int32_t number) { return p.number < number; });
-  return found != direct.own.end() && found->number == first ? &*found : nullptr;
-}
 
 // Weights of the values at three points of a leaf, for the plane through them at a corner.
 bool plane_weights(const CornerLight::OwnPoint* p, int corner, double weight[3]) {
@@ -83,21 +57,86 @@ double direct_light(const State& state, const std::vector<float>& at_points, Nod
   return own ? weight_of_own_points : 1;
 }
 
-// Light that arrives evenly over cells is made linear on these first, then taken at the corners of
-// the leaves.
-LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
-  const Forest& forest = state.forest;
+// What is known of cells and leaves by links that their owners alone have, in the order of the
+// cells and leaves.
+struct LightByLinks {
+  std::vector<float> of_cells;   // what arrives over rows, bands values
+  std::vector<float> of_leaves;  // direct light: the mean, then at the three corners
+  std::vector<float> weight;     // per leaf and corner
+  LightByLinks(const State& state, const std::vector<NodeId>& leaves, const Exchange& exchange);
+};
+
+LightByLinks::LightByLinks(const State& state, const std::vector<NodeId>& leaves,
+                           const Exchange& exchange) {
   const size_t bands = static_cast<size_t>(state.bands);
+  const auto surface = [&](NodeId id) { return state.forest.nodes[id].surface; };
+  of_cells.resize(state.cells.size() * bands);
+  for (size_t k = 0; k < state.cells.size(); ++k)
+    if (exchange.mine(surface(state.cells[k])))
+      gather_links(state, state.cells[k], &of_cells[k * bands]);
+  exchange.share_rows(of_cells, bands, [&](size_t k) { return surface(state.cells[k]); });
   std::vector<float> at_points(state.direct.point_count() * bands);
   for (size_t k = 0; k < state.direct.point_count(); ++k)
     gather_point(state, k, &at_points[k * bands]);
-  const auto even = [&](NodeId id, double* values) { return even_light(state, id, values); };
-  const auto even_at = [&](NodeId id, int, double* values) { return even(id, values); };
-  if (!has_points(state))
-    return LinearField(forest, state.bands, leaves, LinearField::Known::over_elements, even_at,
-                       even);
-  const LinearField on_cells(forest, state.bands, state.cells, LinearField::Known::over_elements,
-                             even_at, even);
+  of_leaves.resize(leaves.size() * 4 * bands);
+  weight.resize(leaves.size() * 3);
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    if (!exchange.mine(surface(leaves[k]))) continue;
+    float* const out = &of_leaves[k * 4 * bands];
+    gather_direct(state, leaves[k], out);
+    for (size_t c = 0; c < 3; ++c) {
+      double values[most_bands];
+      weight[3 * k + c] = static_cast<float>(
+          direct_light(state, at_points, leaves[k], static_cast<int>(c), values));
+      for (size_t b = 0; b < bands; ++b) out[(c + 1) * bands + b] = static_cast<float>(values[b]);
+    }
+  }
+  const auto of_leaf = [&](size_t k) { return surface(leaves[k]); };
+  exchange.share_rows(of_leaves, 4 * bands, of_leaf);
+  exchange.share_rows(weight, 3, of_leaf);
+}
+
+// The mean of a small one says more about its corner than that of a large one, whose middle is
+// farther away.
+double weight_of_mean(const Forest& forest, NodeId id) {
+  return forest.nodes[id].exposed / std::sqrt(forest.area(forest.nodes[id]));
+}
+
+// From all that arrives over the leaves.
+LinearField field_of_means(const State& state, const std::vector<NodeId>& leaves) {
+  const auto mean = [&](NodeId id, double* values) {
+    const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
+    std::copy(irradiance, irradiance + state.bands, values);
+    return weight_of_mean(state.forest, id);
+  };
+  return LinearField(
+      state.forest, state.bands, leaves, LinearField::Known::over_elements,
+      [&](NodeId id, int, double* values) { return mean(id, values); }, mean);
+}
+
+std::vector<int32_t> places_of(const std::vector<NodeId>& ids, size_t nodes) {
+  std::vector<int32_t> place(nodes, -1);
+  for (size_t k = 0; k < ids.size(); ++k) place[ids[k]] = static_cast<int32_t>(k);
+  return place;
+}
+
+// Light that arrives evenly over cells is made linear on these first, then taken at the corners of
+// the leaves; direct light is known at points, and comes on top.
+LinearField field_of_rows(const State& state, const std::vector<NodeId>& leaves,
+                          const Exchange& exchange) {
+  const Forest& forest = state.forest;
+  const size_t bands = static_cast<size_t>(state.bands);
+  const LightByLinks light(state, leaves, exchange);
+  const std::vector<int32_t> cell_at = places_of(state.cells, forest.nodes.size());
+  const std::vector<int32_t> leaf_at = places_of(leaves, forest.nodes.size());
+  const auto even = [&](NodeId id, double* values) {
+    const float* by_row = &light.of_cells[static_cast<size_t>(cell_at[id]) * bands];
+    std::copy(by_row, by_row + bands, values);
+    return weight_of_mean(forest, id);
+  };
+  const LinearField on_cells(
+      forest, state.bands, state.cells, LinearField::Known::over_elements,
+      [&](NodeId id, int, double* values) { return even(id, values); }, even);
   const auto add_from_cells = [&](NodeId leaf, int c, double* values) {
     NodeId cell = leaf;
     while (!on_cells.has(cell)) cell = forest.nodes[cell].parent;
@@ -109,15 +148,16 @@ LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
   return LinearField(
       forest, state.bands, leaves, LinearField::Known::at_corners,
       [&](NodeId leaf, int c, double* values) {
-        const double weight = direct_light(state, at_points, leaf, c, values);
+        const size_t at = static_cast<size_t>(leaf_at[leaf]), corner = static_cast<size_t>(c);
+        const float* direct = &light.of_leaves[(4 * at + corner + 1) * bands];
+        std::copy(direct, direct + bands, values);
         add_from_cells(leaf, c, values);
-        return weight;
+        return static_cast<double>(light.weight[3 * at + corner]);
       },
       [&](NodeId leaf, double* values) {
         std::fill(values, values + bands, 0.0);
         for (int c = 0; c < 3; ++c) add_from_cells(leaf, c, values);
-        float direct[most_bands];
-        gather_direct(state, leaf, direct);
+        const float* direct = &light.of_leaves[4 * static_cast<size_t>(leaf_at[leaf]) * bands];
         for (size_t b = 0; b < bands; ++b) values[b] = values[b] / 3 + direct[b];
         // The mean of a partly sealed leaf is not that of the three corners.
         return forest.nodes[leaf].exposed < 1 ? 0.0 : 1.0;
@@ -126,8 +166,11 @@ LinearField field_of(const State& state, const std::vector<NodeId>& leaves) {
 
 }  // namespace
 
-Reconstruction::Reconstruction(const State& state, const std::vector<NodeId>& leaves)
-    : bands_(state.bands), field_(field_of(state, leaves)) {}
+Reconstruction::Reconstruction(const State& state, const std::vector<NodeId>& leaves,
+                               const Exchange& exchange)
+    : bands_(state.bands),
+      field_(has_points(state) ? field_of_rows(state, leaves, exchange)
+                               : field_of_means(state, leaves)) {}
 
 void Reconstruction::at(NodeId leaf, double u, double v, double* out) const {
   std::fill(out, out + bands_, 0.0);

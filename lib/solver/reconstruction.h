@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "solver/linear_field.h"
+#include "stages/exchange.h"
 #include "stages/state.h"
 
 namespace hrad {
 
 class Reconstruction {
  public:
-  Reconstruction(const State& state, const std::vector<NodeId>& leaves);
+  // Collective.
+  Reconstruction(const State& state, const std::vector<NodeId>& leaves, const Exchange& exchange);
 
   // Irradiance at the three corners of a leaf, in the order of Forest::triangle: 3*bands values.
   void corners(NodeId leaf, double* out) const { field_.corners(leaf, out); }

@@ -9,6 +9,7 @@
 #include "solver/reconstruction.h"
 #include "solver/solve_progress.h"
 #include "solver/solver.h"
+#include "stages/exchange.h"
 #include "stages/state.h"
 #include "visibility/inspection.h"
 
@@ -18,6 +19,8 @@ struct Solver::Solution : SolveProgress {
   explicit Solution(const Scene& scene) : state(scene) {}
 
   std::unique_ptr<ThreadTeam> team;
+  std::vector<int32_t> owners;  // per patch
+  std::unique_ptr<Exchange> exchange;
   std::unique_ptr<VisibilityEngine> engine;
   std::unique_ptr<Exposure> exposure;
   Inspection inspection;

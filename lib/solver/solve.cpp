@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "machine/process_usage.h"
 #include "solver/progress_clock.h"
+#include "solver/same_everywhere.h"
 #include "solver/schedule.h"
 #include "solver/solution.h"
 #include "stages/gather.h"
@@ -28,9 +29,15 @@ constexpr int most_tightenings = 2;
 void measure_exposure(State& state, const StageTools& tools) {
   const LinkSampler sampler(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                             tools.oracle.near_ratio);
+  std::vector<float> shares;
+  for (int64_t k = 0; k < state.forest.surface_count(); ++k)
+    shares.push_back(state.forest.nodes[k].exposed);
   tools.team.for_each(state.forest.surface_count(), [&](int64_t k, int) {
-    state.forest.nodes[k].exposed = sampler.exposed_share(state.forest.nodes[k]);
+    if (tools.exchange.mine(static_cast<int32_t>(k)))
+      shares[k] = sampler.exposed_share(state.forest.nodes[k]);
   });
+  tools.exchange.share(shares, [](size_t k) { return static_cast<int32_t>(k); });
+  for (size_t k = 0; k < shares.size(); ++k) state.forest.nodes[k].exposed = shares[k];
 }
 
 }  // namespace
@@ -44,9 +51,13 @@ class Solver::Run {
         state_(solver.solution_->state),
         params_(solver.params_),
         by_rows_(by_rows(params_, state_.forest, solution_.inspection)),
+        exchange_(*solver.solution_->exchange),
         clock_([&solver](const Progress& p) {
-          return !solver.stop_requested_.load(std::memory_order_relaxed) &&
-                 (!solver.progress_ || solver.progress_(p));
+          const bool asked = solver.comm_->rank() == 0 && solver.progress_;
+          const bool stop = solver.stop_requested_.load(std::memory_order_relaxed) ||
+                            (asked && !solver.progress_(p));
+          if (stop) solver.comm_->raise();
+          return !stop && !solver.comm_->raised();
         }) {}
 
   Status run() {
@@ -76,7 +87,10 @@ class Solver::Run {
   }
 
   StageTools tools(int oracle_round) {
-    return {*solution_.team, *solution_.engine, *solution_.exposure,
+    return {*solution_.team,
+            exchange_,
+            *solution_.engine,
+            *solution_.exposure,
             oracle_of_round(params_, state_, oracle_round, solution_.scale),
             [this](double fraction) { return clock_.report(fraction, solver_.stats_.iterations); }};
   }
@@ -117,12 +131,17 @@ class Solver::Run {
       begin_from_emission(by_rows_ ? first_rounds : solution_.rounds_done);
     // By rows it follows the light; and the method may be another for another accuracy.
     const bool other_method = solution_.linked && state_.cells.empty() == by_rows_;
-    if (other_method) clear(state_);
+    if (other_method) clear_state();
     if (other_method || (by_rows_ && (other_mesh || more_accurate))) {
       solution_.linked = solution_.sweeping = false;
       solution_.tightened = 0;
       solution_.scale = 1;
     }
+  }
+
+  void clear_state() {
+    clear(state_);
+    exchange_.forget();
   }
 
   void begin_from_emission(int round) {
@@ -178,7 +197,7 @@ class Solver::Run {
   }
 
   bool link_by_rows() {
-    clear(state_);
+    clear_state();
     clock_.begin("linking", 0.02, 0.85);
     const StageTools stage = tools(first_rounds);
     measure_exposure(state_, stage);
@@ -193,7 +212,7 @@ class Solver::Run {
     const double whole = share_of_rounds(number) - share_of_rounds(number - 1);
     clock_.begin("refine", from, from + 0.95 * whole);
     const auto start = std::chrono::steady_clock::now();
-    const Brightness brightness = measure_brightness(state_, *solution_.team);
+    const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
     const bool done = refine_links(state_, tools(number), brightness);
     solver_.stats_.seconds_iterative +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -220,12 +239,13 @@ class Solver::Run {
     bool going_on = true;
     solution_.converged = false;
     while (going_on && !solution_.converged && !out_of_sweeps()) {
-      gather(state_, *solution_.team, space);
-      solution_.converged = solution_.convergence.reached(push_pull(state_, *solution_.team));
+      solution_.converged =
+          solution_.convergence.reached(hrad::sweep(state_, *solution_.team, exchange_, space));
       ++solver_.stats_.iterations;
       solution_.sweeping = !solution_.converged && !out_of_sweeps();
-      going_on = clock_.report(0.5, solver_.stats_.iterations);
+      going_on = exchange_.all_go_on(clock_.report(0.5, solver_.stats_.iterations));
     }
+    exchange_.share_light(state_);
     solver_.stats_.seconds_iterative +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     solution_.sweeping = !solution_.converged && !out_of_sweeps();
@@ -267,6 +287,7 @@ class Solver::Run {
   State& state_;
   const Params& params_;
   const bool by_rows_;
+  Exchange& exchange_;
   ProgressClock clock_;
 };
 
@@ -274,6 +295,7 @@ Status Solver::solve() {
   if (params_.refine == 0 && !solved())
     fail(Status::state, "there are no links to sweep over: solve once with refine=1 before");
   const double cpu = user_seconds();
+  if (solution_) check_same_everywhere(*comm_, params_, scene_);
   partition();
   begun_ = true;
   // A stop that was asked for before the solve began holds too.

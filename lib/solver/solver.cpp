@@ -2,21 +2,37 @@
 // Floor 8 (solver).
 #include "solver/solver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "machine/comm_self.h"
+#include "machine/crowd.h"
 #include "machine/process_usage.h"
+#include "machine/sharing.h"
 #include "machine/topology.h"
+#include "partition/partition.h"
 #include "solver/export.h"
 #include "solver/partition_plan.h"
+#include "solver/same_everywhere.h"
 #include "solver/solution.h"
 #include "stages/state_memory.h"
 
 namespace hrad {
 namespace {
+
+// Links of clusters are held by all processes, and are one's own.
+int64_t links_of_others(const State& state, const Exchange& exchange) {
+  int64_t count = 0;
+  for (NodeId id = static_cast<NodeId>(state.forest.surface_count());
+       id < static_cast<NodeId>(state.forest.surface_count() +
+                                static_cast<int64_t>(state.forest.clusters.clusters.size()));
+       ++id)
+    if (!exchange.mine(state.forest, id)) count += state.links[static_cast<size_t>(id)].count();
+  return count;
+}
 
 // What a ray engine takes for a patch while it is built.
 constexpr int64_t kEngineBytesOfPatch = 150;
@@ -48,6 +64,7 @@ void Solver::partition() {
   if (scene_.patch_count() == 0)
     fail(Status::scene, "the scene has no patches: load, make or add some before solving");
   const auto start = std::chrono::steady_clock::now();
+  check_same_everywhere(*comm_, params_, scene_);
   auto solution = std::make_unique<Solution>(scene_);
   MemoryBudget& memory = solution->state.memory;
   memory.set_limit(params_.max_memory);
@@ -56,17 +73,46 @@ void Solver::partition() {
   // Until its true size is known.
   const int64_t expected = scene_.patch_count() * kEngineBytesOfPatch;
   memory.take(expected, "the structure for rays");
-  const PoolPlan plan =
-      plan_pool(read_topology(), params_.threads, params_.smt != 0, params_.bind != 0);
+  const Topology topology = read_topology();
+  const PoolPlan plan = plan_pool(topology, params_.threads, params_.smt != 0, params_.bind != 0,
+                                  sharers_of_processors(*comm_, topology));
+  warn_of_crowd(topology, plan);
   solution->team = std::make_unique<ThreadTeam>(plan.threads, plan.binding);
   solution->engine =
       make_visibility_engine(scene_, params_.visibility, params_.instruction_set, *solution->team);
   memory.take(solution->engine->bytes() - expected, "the structure for rays");
   solution->exposure = std::make_unique<Exposure>(scene_, *solution->engine);
   solution->inspection = inspect(scene_, *solution->engine, *solution->exposure);
+  deal_out(*solution);
   solution_ = std::move(solution);
   stats_.seconds_initial +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Solver::warn_of_crowd(const Topology& topology, const PoolPlan& plan) const {
+  const int threads = plan.threads * plan.sharers;
+  if (plan.sharers == 1 || threads <= topology.usable_contexts) return;
+  log_.write(Log::warning,
+             format("%d processes on this node would run %d threads on the same %d processors: "
+                    "start fewer, or give each its own, as by mpirun --map-by slot:PE=%d",
+                    plan.sharers, threads, topology.usable_contexts, plan.threads));
+}
+
+// Gives every patch an owner.
+void Solver::deal_out(Solution& solution) const {
+  const int32_t ranks = comm_->size();
+  if (ranks == 1) {
+    solution.owners.assign(static_cast<size_t>(scene_.patch_count()), 0);
+  } else {
+    const std::vector<PartitionItem> items =
+        partition_items(scene_, predicted_work(params_, solution.state, solution.inspection));
+    solution.owners =
+        owners_of(scene_, items, partition_method(params_.partition).divide(items, ranks));
+  }
+  std::vector<int32_t> of_surface;
+  for (const Surface& surface : solution.state.forest.surfaces)
+    of_surface.push_back(solution.owners[static_cast<size_t>(surface.patch)]);
+  solution.exchange = std::make_unique<Exchange>(*comm_, std::move(of_surface));
 }
 
 int32_t Solver::patch_owner(int64_t patch) const {
@@ -74,7 +120,7 @@ int32_t Solver::patch_owner(int64_t patch) const {
   if (patch < 0 || patch >= scene_.patch_count())
     fail(Status::argument, "patch %lld: the scene has %lld patches, from 0 on",
          static_cast<long long>(patch), static_cast<long long>(scene_.patch_count()));
-  return 0;
+  return solution_->owners[static_cast<size_t>(patch)];
 }
 
 PartitionPlan Solver::plan_partition(const std::string& method, int32_t ranks) {
@@ -94,9 +140,29 @@ std::string Solver::describe_machine() const {
                   plan_pool(topology, params_.threads, params_.smt != 0, params_.bind != 0));
 }
 
+// What each process did, added up; memory is that of the one which needed most.
 Stats Solver::stats() const {
   measure_if_due();
-  return counts();
+  Stats all = counts();
+  std::vector<Stats> of_each{all};
+  unite(*comm_, of_each);
+  all.rays = all.pairs = all.links = 0;
+  all.cpu_seconds = 0;
+  for (int kind = 0; kind < 3; ++kind) all.messages[kind] = all.message_bytes[kind] = 0;
+  for (const Stats& s : of_each) {
+    all.rays += s.rays;
+    all.pairs += s.pairs;
+    all.links += s.links;
+    all.cpu_seconds += s.cpu_seconds;
+    all.memory_peak_bytes = std::max(all.memory_peak_bytes, s.memory_peak_bytes);
+    all.link_bytes = std::max(all.link_bytes, s.link_bytes);
+    all.node_bytes = std::max(all.node_bytes, s.node_bytes);
+    for (int kind = 0; kind < 3; ++kind) {
+      all.messages[kind] += s.messages[kind];
+      all.message_bytes[kind] += s.message_bytes[kind];
+    }
+  }
+  return all;
 }
 
 Stats Solver::counts() const {
@@ -111,8 +177,14 @@ Stats Solver::counts() const {
   s.leaves = static_cast<int64_t>(solution.leaves.size());
   s.rays = state.rays;
   s.pairs = state.pairs;
+  s.ranks = comm_->size();
   s.links = state.links.link_count() + state.direct.mean.link_count() +
-            static_cast<int64_t>(state.direct.links.size());
+            static_cast<int64_t>(state.direct.links.size()) -
+            links_of_others(state, *solution.exchange);
+  for (int kind = 0; kind < 3; ++kind) {
+    s.messages[kind] = solution.exchange->counts().messages[kind];
+    s.message_bytes[kind] = solution.exchange->counts().bytes[kind];
+  }
   s.link_bytes = bytes_of_links(state);
   s.node_bytes =
       bytes_of_nodes(state) + static_cast<int64_t>(solution.leaves.capacity() * sizeof(NodeId));
@@ -124,6 +196,44 @@ Stats Solver::counts() const {
   s.back_share = solution.balance.back_share;
   return s;
 }
+
+namespace {
+
+void add(Hasher& hash, Span<const Link> links) {
+  hash.add(static_cast<uint64_t>(links.size()));
+  for (const Link& link : links) {
+    hash.add(static_cast<uint64_t>(link.source));
+    hash.add(link.weight);
+  }
+}
+
+// Of an element or cluster with its links and its light.
+uint64_t hash_of_node(const State& state, NodeId id) {
+  const Node& node = state.forest.nodes[id];
+  const size_t at = static_cast<size_t>(id);
+  Hasher hash;
+  hash.add(key_of(state.forest, node));
+  hash.add(static_cast<uint64_t>(node.first_child + 1));
+  hash.add(node.exposed);
+  hash.add(static_cast<uint64_t>(node.light_points));
+  add(hash, state.links[at].links());
+  const CornerLight& direct = state.direct;
+  if (at < direct.mean.size()) add(hash, direct.mean[at].links());
+  // Numbers of points are a matter of who numbers them: what they say is not.
+  if (at < direct.of_leaf.size() && direct.of_leaf[at][0] >= 0) {
+    for (int32_t point : direct.of_leaf[at]) add(hash, direct.links_of_point(point));
+    if (const CornerLight::OwnPoint* own = own_points(state, id))
+      for (int k = 0; k < 3; ++k) {
+        hash.add(own[k].x);
+        hash.add(own[k].y);
+      }
+  }
+  for (int band = 0; band < state.bands; ++band)
+    hash.add(state.radiosity[at * static_cast<size_t>(state.bands) + static_cast<size_t>(band)]);
+  return hash.value();
+}
+
+}  // namespace
 
 uint64_t Solver::state_hash() const {
   require_solved();
@@ -143,42 +253,25 @@ uint64_t Solver::state_hash() const {
   }
   for (double value : scene_.emission) hash.add(value);
   for (double value : scene_.reflectance) hash.add(value);
+  // Every process adds up what it knows of its own elements: whole numbers, in any order.
+  uint64_t sum = 0;
   for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
-    const Node& node = state.forest.nodes[k];
-    hash.add(key_of(state.forest, node));
-    hash.add(static_cast<uint64_t>(node.first_child + 1));
-    hash.add(node.exposed);
-    hash.add(static_cast<uint64_t>(node.light_points));
-    for (const Link& link : state.links[k].links()) {
-      hash.add(static_cast<uint64_t>(link.source));
-      hash.add(link.weight);
-    }
+    const NodeId id = static_cast<NodeId>(k);
+    if (solution_->exchange->mine(state.forest, id)) sum += mix(k, hash_of_node(state, id));
   }
-  const CornerLight& direct = state.direct;
-  for (size_t k = 0; k < direct.mean.size(); ++k)
-    for (const Link& link : direct.mean[k].links()) {
-      hash.add(static_cast<uint64_t>(link.source));
-      hash.add(link.weight);
-    }
-  for (const auto& corners : direct.of_leaf)
-    for (int32_t corner : corners) hash.add(static_cast<uint64_t>(corner + 1));
-  for (const CornerLight::OwnPoint& point : direct.own) {
-    hash.add(static_cast<uint64_t>(point.number));
-    hash.add(point.x);
-    hash.add(point.y);
-  }
-  for (uint32_t first : direct.first) hash.add(static_cast<uint64_t>(first));
-  for (const Link& link : direct.links) {
-    hash.add(static_cast<uint64_t>(link.source));
-    hash.add(link.weight);
-  }
-  for (float value : state.radiosity) hash.add(value);
+  comm_->add_up({&sum, 1});
+  hash.add(sum);
   return hash.value();
 }
 
 void Solver::export_file(const std::string& path) const {
   const auto start = std::chrono::steady_clock::now();
-  export_solution(*this, path);
+  if (!comm_->alone()) {
+    require_solved();
+    reconstruction();  // by all of them
+  }
+  if (comm_->rank() == 0) export_solution(*this, path);
+  comm_->all_go_on();
   stats_.seconds_output +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -55,7 +55,9 @@ class Solver {
   // sink returns false to stop the solve at the next safe point. Called on the thread of solve().
   void set_progress(std::function<bool(const Progress&)> sink) { progress_ = std::move(sink); }
 
-  // load
+  // load: collective; what describes the scene is taken from rank 0's arguments, whatever those of
+  // the others are
+  bool describes_scene() const { return comm_->rank() == 0; }
   int32_t add_material(Material material);
   void add_patches(int64_t n_vertices, const double* xyz, int64_t n_triangles,
                    const int64_t* vertex, const int32_t* material);
@@ -114,12 +116,21 @@ class Solver {
  private:
   struct Solution;
   class Run;
+  void warn_of_crowd(const struct Topology& topology, const struct PoolPlan& plan) const;
+  void deal_out(Solution& solution) const;
   void require_solved() const;
   void measure_if_due() const;
   Stats counts() const;  // stats() with what has been measured already
   const class Reconstruction& reconstruction() const;
   void require_open() const;  // the scene may still grow
+  void check_arrays(int64_t n_vertices, const double* xyz, int64_t n_triangles,
+                    const int64_t* vertex) const;
+  void add_patches_here(int64_t n_vertices, const double* xyz, int64_t n_triangles,
+                        const int64_t* vertex, const int32_t* material);
+  std::vector<double> values_of_patches(int64_t& first, int64_t& count, const double* given) const;
+  void warn(size_t before) const;
   void take_over(struct CheckpointContent& content);
+  std::unique_ptr<struct CheckpointContent> read_on_all_ranks(const std::string& path) const;
 
   const std::shared_ptr<Comm> comm_;
   Params params_;

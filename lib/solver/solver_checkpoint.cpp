@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "machine/file_self.h"
+#include "solver/all_links.h"
 #include "solver/checkpoint.h"
 #include "solver/checkpoint_scene.h"
 #include "solver/solution.h"
@@ -23,18 +25,29 @@ Params joined(const Params& of_file, const Params& here) {
   return params;
 }
 
+// What all ranks have counted.
+void add_up(Comm& comm, int64_t& rays, int64_t& pairs) {
+  uint64_t sums[] = {static_cast<uint64_t>(rays), static_cast<uint64_t>(pairs)};
+  comm.add_up({sums, 2});
+  rays = static_cast<int64_t>(sums[0]);
+  pairs = static_cast<int64_t>(sums[1]);
+}
+
 }  // namespace
 
 void Solver::lock_checkpoint(const std::string& path) {
+  if (comm_->rank() != 0) return;
   if (checkpoint_lock_ && checkpoint_lock_->is_of(path)) return;
   checkpoint_lock_ = std::make_unique<FileLock>(path);
 }
 
 void Solver::write_checkpoint(const std::string& path) {
   const auto start = std::chrono::steady_clock::now();
-  std::unique_ptr<FileLock> lock;
-  if (!checkpoint_lock_ || !checkpoint_lock_->is_of(path)) lock = std::make_unique<FileLock>(path);
-  WholeFile file(path);
+  if (solving_ && !comm_->alone())
+    fail(Status::state,
+         "%s: the progress function is called on one rank, and all must write together: stop the "
+         "solve there, write, and solve on",
+         path.c_str());
   const SolveProgress no_progress;
   const PowerBalance no_balance;
   const Inspection no_inspection;
@@ -42,15 +55,28 @@ void Solver::write_checkpoint(const std::string& path) {
   const SolveProgress* progress = s ? static_cast<const SolveProgress*>(s) : &no_progress;
   const bool linked = s && s->linked;
   // What linking that is under way has counted it will count again.
-  const int64_t rays = linked ? s->state.rays : s ? s->state.journal.rays_before : 0;
+  int64_t rays = linked ? s->state.rays : s ? s->state.journal.rays_before : 0;
   if (solving_ && !linked && s->state.journal.empty())
     fail(Status::state, "%s: nothing is linked yet that a checkpoint could keep", path.c_str());
+  int64_t pairs = s ? s->state.pairs : 0;
+  add_up(*comm_, rays, pairs);
+  // Rank 0 alone writes, and the others know how that went before they go on.
+  std::unique_ptr<AllLinks> all;
+  if (linked) all = std::make_unique<AllLinks>(solution_->state, *s->exchange);
+  if (comm_->rank() != 0) {
+    comm_->all_go_on();
+    return;
+  }
+  std::unique_ptr<FileLock> lock;
+  if (!checkpoint_lock_ || !checkpoint_lock_->is_of(path)) lock = std::make_unique<FileLock>(path);
+  WholeFile file(path);
   hrad::write_checkpoint(
       file,
       {params_, scene_, begun_, linked ? &s->state : nullptr,
-       s && !linked ? &s->state.journal : nullptr, rays, s ? s->state.pairs : 0, *progress, stats_,
+       s && !linked && comm_->alone() ? &s->state.journal : nullptr, rays, pairs, *progress, stats_,
        s ? s->balance : no_balance, s ? s->inspection : no_inspection},
       s && !solving_ ? s->team.get() : nullptr);
+  comm_->all_go_on();
   file.commit_keeping(static_cast<int>(params_.checkpoint_keep));
   stats_.seconds_output +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -64,10 +90,12 @@ void Solver::take_over(CheckpointContent& content) {
   s.inspection = content.inspection;
   s.balance = std::move(content.balance);
   State& state = s.state;
-  state.rays = content.rays;
-  state.pairs = content.pairs;
-  state.journal =
-      LinkJournal::restored(content.key_of_steps, content.rays, std::move(content.steps));
+  // Counts are added up over all ranks.
+  state.rays = comm_->rank() == 0 ? content.rays : 0;
+  state.pairs = comm_->rank() == 0 ? content.pairs : 0;
+  if (comm_->alone())
+    state.journal =
+        LinkJournal::restored(content.key_of_steps, content.rays, std::move(content.steps));
   if (!content.state) return;
   const int64_t before = bytes_of(state);
   state.forest = std::move(content.state->forest);
@@ -77,13 +105,28 @@ void Solver::take_over(CheckpointContent& content) {
   state.direct = std::move(content.state->direct);
   state.radiosity = std::move(content.state->radiosity);
   state.irradiance = std::move(content.state->irradiance);
+  keep_own_links(state, *s.exchange);
+  s.exchange->forget();
+  s.exchange->ask_for_sources(state);
   state.memory.take(bytes_of(state) - before, "links and elements");
   s.leaves = state.forest.leaves();
 }
 
+// Rank 0 alone opens the file.
+std::unique_ptr<CheckpointContent> Solver::read_on_all_ranks(const std::string& path) const {
+  std::string text;
+  if (comm_->rank() == 0 && !read_file(path, text))
+    fail(Status::file, "%s: there is no such file", path.c_str());
+  Bytes bytes(text.begin(), text.end());
+  comm_->broadcast(bytes);
+  text.assign(bytes.begin(), bytes.end());
+  return read_checkpoint_bytes(path, text, params_.max_memory);
+}
+
 void Solver::read_checkpoint(const std::string& path) {
   const auto start = std::chrono::steady_clock::now();
-  const std::unique_ptr<CheckpointContent> content = read_checkpoint_file(path, params_.max_memory);
+  const std::unique_ptr<CheckpointContent> content =
+      comm_->alone() ? read_checkpoint_file(path, params_.max_memory) : read_on_all_ranks(path);
   if (scene_.patch_count() > 0) {
     const std::string difference = difference_of(content->scene, scene_);
     if (!difference.empty())

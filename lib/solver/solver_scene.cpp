@@ -8,82 +8,19 @@
 #include <utility>
 
 #include "base/error.h"
+#include "machine/sharing.h"
 #include "scene/load.h"
+#include "scene/scene_bytes.h"
+#include "solver/scene_addition.h"
 #include "solver/solution.h"
 
 namespace hrad {
 namespace {
 
-// Coordinates beyond this would overflow when areas are multiplied.
-constexpr double kLargestCoordinate = 1e30;
 // Radiosity is kept in single precision, which holds these a million times reflected.
 constexpr double kSmallestEmission = 1e-30, kLargestEmission = 1e30;
-// Patches and vertices are named by 32-bit indices.
-constexpr int64_t kMostPatches = std::numeric_limits<int32_t>::max();
 // Share of measuring rays that meet black backs above which windings are probably wrong.
 constexpr double kDoubtfulBackShare = 0.05;
-
-// Adds the time from its making to its end to a counter.
-class Stopwatch {
- public:
-  explicit Stopwatch(double* seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    *seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double* seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// Takes back what was added to a scene since it was made, unless it is told to keep it.
-class SceneAddition {
- public:
-  explicit SceneAddition(Scene& scene)
-      : scene_(scene),
-        vertices_(scene.vertices.size()),
-        materials_(scene.materials.size()),
-        patches_(scene.corners.size()),
-        diagnostics_(scene.diagnostics) {}
-  ~SceneAddition() {
-    if (kept_) return;
-    scene_.vertices.resize(vertices_);
-    scene_.materials.resize(materials_);
-    scene_.corners.resize(patches_);
-    scene_.material.resize(patches_);
-    scene_.face.resize(patches_);
-    scene_.flags.resize(patches_);
-    scene_.emission.resize(patches_ * static_cast<size_t>(scene_.bands));
-    scene_.reflectance.resize(patches_ * static_cast<size_t>(scene_.bands));
-    scene_.diagnostics.swap(diagnostics_);
-  }
-  SceneAddition(const SceneAddition&) = delete;
-  SceneAddition& operator=(const SceneAddition&) = delete;
-
-  int64_t first_patch() const { return static_cast<int64_t>(patches_); }
-  void keep() { kept_ = true; }
-
- private:
-  Scene& scene_;
-  const size_t vertices_, materials_, patches_;
-  std::vector<std::string> diagnostics_;
-  bool kept_ = false;
-};
-
-// What check_patches and the loaders found since `before` goes to the log as well.
-void warn(const Log& log, const Scene& scene, size_t before) {
-  for (size_t i = before; i < scene.diagnostics.size(); ++i)
-    log.write(Log::warning, scene.diagnostics[i]);
-}
-
-// MEMORY when a scene alone is over the limit.
-void check_memory(const Scene& scene, int64_t limit) {
-  MemoryBudget budget;
-  budget.set_limit(limit);
-  budget.take(scene.bytes(), "the patches of the scene");
-}
 
 // owner and number: whose value it is, as "patch" 7.
 void check_reflectance(double value, const char* owner, int64_t number, size_t band) {
@@ -119,6 +56,12 @@ bool any_emitter(const Scene& scene) {
 
 }  // namespace
 
+// What check_patches and the loaders found since `before` goes to the log as well.
+void Solver::warn(size_t before) const {
+  for (size_t i = before; i < scene_.diagnostics.size() && describes_scene(); ++i)
+    log_.write(Log::warning, scene_.diagnostics[i]);
+}
+
 void Solver::require_open() const {
   if (solution_)
     fail(Status::state,
@@ -128,6 +71,7 @@ void Solver::require_open() const {
 
 int32_t Solver::add_material(Material material) {
   require_open();
+  broadcast(*comm_, material);
   const auto bands = static_cast<size_t>(scene_.bands);
   const auto number = static_cast<int64_t>(scene_.materials.size());
   if (number >= std::numeric_limits<int32_t>::max())
@@ -148,60 +92,6 @@ int32_t Solver::add_material(Material material) {
   return scene_.add_material(std::move(material));
 }
 
-void Solver::add_patches(int64_t n_vertices, const double* xyz, int64_t n_triangles,
-                         const int64_t* vertex, const int32_t* material) {
-  const Stopwatch stopwatch(&stats_.seconds_load);
-  require_open();
-  // Counts first: the arrays are not touched before it is known that they can be that long.
-  if (n_vertices < 0 || n_triangles < 0)
-    fail(Status::argument, "%lld vertices and %lld triangles: counts can't be negative",
-         static_cast<long long>(n_vertices), static_cast<long long>(n_triangles));
-  const auto base = static_cast<int64_t>(scene_.vertices.size());
-  if (n_vertices > kMostPatches - base || n_triangles > kMostPatches - scene_.patch_count())
-    fail(Status::argument,
-         "%lld more vertices and %lld more triangles are too many: a scene has up to %lld of each",
-         static_cast<long long>(n_vertices), static_cast<long long>(n_triangles),
-         static_cast<long long>(kMostPatches));
-  if ((n_vertices > 0 && !xyz) || (n_triangles > 0 && !vertex))
-    fail(Status::argument, "the array of %s is NULL",
-         xyz || n_vertices == 0 ? "indices" : "coordinates");
-  for (int64_t i = 0; i < 3 * n_vertices; ++i)
-    if (!(std::fabs(xyz[i]) <= kLargestCoordinate))
-      fail(Status::argument,
-           "vertex %lld has the coordinate %g: coordinates must be finite and within +-%g",
-           static_cast<long long>(i / 3), xyz[i], kLargestCoordinate);
-  for (int64_t i = 0; i < 3 * n_triangles; ++i)
-    if (vertex[i] < 0 || vertex[i] >= n_vertices)
-      fail(Status::argument, "triangle %lld has the vertex %lld: this call has %lld, from 0 on",
-           static_cast<long long>(i / 3), static_cast<long long>(vertex[i]),
-           static_cast<long long>(n_vertices));
-  const auto materials = static_cast<int64_t>(scene_.materials.size());
-  for (int64_t i = 0; material && i < n_triangles; ++i)
-    if (material[i] < 0 || material[i] >= materials)
-      fail(Status::argument, "triangle %lld has the material %d: there are %lld, from 0 on",
-           static_cast<long long>(i), static_cast<int>(material[i]),
-           static_cast<long long>(materials));
-  if (n_triangles == 0) return;
-
-  SceneAddition addition(scene_);
-  const size_t diagnostics = scene_.diagnostics.size();
-  if (!material && materials == 0) {
-    Material gray;  // its missing values are reflectance 0.5 and emission 0
-    gray.name = "default";
-    scene_.add_material(std::move(gray));
-  }
-  for (int64_t i = 0; i < n_vertices; ++i)
-    scene_.add_vertex({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
-  const auto corner = [&](int64_t i) { return static_cast<int32_t>(base + vertex[i]); };
-  for (int64_t i = 0; i < n_triangles; ++i)
-    scene_.add_patch(corner(3 * i), corner(3 * i + 1), corner(3 * i + 2),
-                     material ? material[i] : 0);
-  check_patches(scene_, addition.first_patch());
-  check_memory(scene_, params_.max_memory);
-  warn(log_, scene_, diagnostics);
-  addition.keep();
-}
-
 void Solver::load_scene(const std::string& path) {
   const Stopwatch stopwatch(&stats_.seconds_load);
   require_open();
@@ -214,11 +104,16 @@ void Solver::load_scene(const std::string& path) {
                                                    : Sides::front;
   SceneAddition addition(scene_);
   const size_t diagnostics = scene_.diagnostics.size();
-  load_obj(scene_, path, sides);
-  check_patches(scene_, addition.first_patch());
-  check_memory(scene_, params_.max_memory);
-  warn(log_, scene_, diagnostics);
-  if (scene_.patch_count() > 0 && !any_emitter(scene_)) log_.write(Log::warning, no_emitter);
+  if (describes_scene()) {
+    load_obj(scene_, path, sides);
+    check_patches(scene_, addition.first_patch());
+    check_memory(scene_, params_.max_memory);
+  }
+  broadcast(*comm_, scene_);
+  comm_->all_go_on();
+  warn(diagnostics);
+  if (scene_.patch_count() > 0 && !any_emitter(scene_) && describes_scene())
+    log_.write(Log::warning, no_emitter);
   addition.keep();
 }
 
@@ -234,12 +129,27 @@ void Solver::make_scene(const std::string& name) {
   make_builtin_scene(made, name);
   check_patches(made, 0);
   check_memory(made, params_.max_memory);
-  warn(log_, made, 0);
+  comm_->all_go_on();
   scene_ = std::move(made);
+  warn(0);
 }
 
-void Solver::set_emission(int64_t first, int64_t count, const double* values) {
+// Rank 0's range of patches and the values given for each.
+std::vector<double> Solver::values_of_patches(int64_t& first, int64_t& count,
+                                              const double* given) const {
+  std::vector<int64_t> range{first, count};
+  broadcast(*comm_, range);
+  first = range[0];
+  count = range[1];
   check_patch_range(scene_, first, count);
+  std::vector<double> values;
+  if (describes_scene()) values.assign(given, given + count * scene_.bands);
+  broadcast(*comm_, values);
+  return values;
+}
+
+void Solver::set_emission(int64_t first, int64_t count, const double* given) {
+  const std::vector<double> values = values_of_patches(first, count, given);
   const auto bands = static_cast<size_t>(scene_.bands);
   for (int64_t i = 0; i < count; ++i)
     for (size_t band = 0; band < bands; ++band) {
@@ -250,17 +160,17 @@ void Solver::set_emission(int64_t first, int64_t count, const double* values) {
              static_cast<long long>(first + i));
     }
   const size_t total = static_cast<size_t>(count) * bands;
-  std::copy_n(values, total,
+  std::copy_n(values.begin(), total,
               scene_.emission.begin() + static_cast<ptrdiff_t>(first) * scene_.bands);
 }
 
-void Solver::set_reflectance(int64_t first, int64_t count, const double* values) {
-  check_patch_range(scene_, first, count);
+void Solver::set_reflectance(int64_t first, int64_t count, const double* given) {
+  const std::vector<double> values = values_of_patches(first, count, given);
   const auto bands = static_cast<size_t>(scene_.bands);
   const size_t total = static_cast<size_t>(count) * bands;
   for (size_t i = 0; i < total; ++i)
     check_reflectance(values[i], "patch", first + static_cast<int64_t>(i / bands), i % bands);
-  std::copy_n(values, total,
+  std::copy_n(values.begin(), total,
               scene_.reflectance.begin() + static_cast<ptrdiff_t>(first) * scene_.bands);
 }
 

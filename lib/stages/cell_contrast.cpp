@@ -5,6 +5,7 @@
 #include <array>
 
 #include "hierarchy/corner_index.h"
+#include "stages/exchange.h"
 
 namespace hrad {
 namespace {
@@ -21,8 +22,14 @@ float light_of_row(const State& state, const Brightness& brightness, NodeId cell
 
 }  // namespace
 
-std::vector<float> contrast_of_cells(const State& state, const Brightness& brightness) {
+std::vector<float> contrast_of_cells(const State& state, const Brightness& brightness,
+                                     const Exchange& exchange) {
   const Forest& forest = state.forest;
+  std::vector<float> light(state.cells.size(), 0.0f);
+  for (size_t k = 0; k < light.size(); ++k)
+    if (exchange.mine(forest.nodes[state.cells[k]].surface))
+      light[k] = light_of_row(state, brightness, state.cells[k]);
+  exchange.share(light, [&](size_t k) { return forest.nodes[state.cells[k]].surface; });
   CornerIndex index(forest);
   struct Range {
     float low = 1e30f, high = -1e30f;
@@ -40,11 +47,10 @@ std::vector<float> contrast_of_cells(const State& state, const Brightness& brigh
     }
     at_corner.resize(static_cast<size_t>(index.count()));
     if (!(node.exposed > 0)) continue;
-    const float light = light_of_row(state, brightness, state.cells[k]);
     for (int32_t number : touched[k]) {
       Range& range = at_corner[number];
-      range.low = std::min(range.low, light);
-      range.high = std::max(range.high, light);
+      range.low = std::min(range.low, light[k]);
+      range.high = std::max(range.high, light[k]);
     }
   }
   std::vector<float> contrast(touched.size(), 0.0f);

@@ -11,7 +11,8 @@ namespace hrad {
 // Per cell the error that a step between its neighbours would leave in it, in units of the scene's
 // mean irradiance: a share of the largest difference between rows of cells that touch it within its
 // plane. A step keeps its height when cells are divided, a slope gets flatter, so that only steps
-// are followed far down.
-std::vector<float> contrast_of_cells(const State& state, const Brightness& brightness);
+// are followed far down. Known to all, whoever owns the rows.
+std::vector<float> contrast_of_cells(const State& state, const Brightness& brightness,
+                                     const Exchange& exchange);
 
 }  // namespace hrad

@@ -7,6 +7,9 @@
 #include "base/error.h"
 #include "links/element.h"
 #include "links/pair_samples.h"
+#include "stages/exchange.h"
+#include "stages/open_cubes.h"
+#include "stages/point_numbers.h"
 
 namespace hrad {
 namespace {
@@ -121,12 +124,16 @@ void CornerSampler::count_memory() {
 bool CornerSampler::sample() {
   count_memory();
   std::vector<OrientedPoint> points;
-  for (const Wanted& wanted : wanted_)
+  std::vector<KeyedPoint> keyed;
+  for (const Wanted& wanted : wanted_) {
     points.push_back({wanted.place, state_.forest.surfaces[wanted.surface].normal});
-  state_.rays += grid_.open(points, tools_.team);
-  for (size_t first = 0; first < points.size(); first += corners_of_a_step)
-    if (!sample_some(points, first, std::min(points.size(), first + corners_of_a_step)))
-      return false;
+    keyed.push_back({wanted.surface, wanted.key, points.back()});
+  }
+  state_.rays += open_cubes(grid_, keyed, tools_);
+  bool going_on = true;
+  for (size_t first = 0; first < points.size() && going_on; first += corners_of_a_step)
+    going_on = sample_some(points, first, std::min(points.size(), first + corners_of_a_step));
+  if (!tools_.exchange.all_go_on(going_on)) return false;
   for (const Wanted& wanted : wanted_)
     place_.push_back({static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
                       static_cast<float>(wanted.place.z), wanted.surface});
@@ -247,38 +254,14 @@ bool CornerSampler::exposed_within(const Node& node, Vec3* place) const {
 }
 
 void CornerSampler::drop_what_is_unnamed() {
-  CornerLight& direct = state_.direct;
   const Emitters& emitters = grid_.emitters();
-  constexpr int32_t unnamed = -1, named = -2;
-  std::vector<int32_t> number(direct.point_count(), unnamed);
-  for (const auto& corners : direct.of_leaf)
-    for (int32_t corner : corners)
-      if (corner >= 0) number[corner] = named;
-  size_t kept = 0, links = 0;
-  for (size_t k = 0; k < number.size(); ++k) {
-    if (number[k] == unnamed) continue;
-    const uint32_t begin = direct.first[k], end = direct.first[k + 1];
-    const OrientedPoint point{{place_[k].x, place_[k].y, place_[k].z},
-                              state_.forest.surfaces[place_[k].surface].normal};
-    direct.first[kept] = static_cast<uint32_t>(links);
-    for (uint32_t l = begin; l < end; ++l) {
-      const Emitter& emitter = emitters.all()[emitters.of_node(direct.links[l].source)];
-      if (emitters.bright(emitter, point.place, point.normal))
-        direct.links[links++] = direct.links[l];
-    }
-    number[k] = static_cast<int32_t>(kept++);
-  }
-  direct.first[kept] = static_cast<uint32_t>(links);
-  direct.first.resize(kept + 1);
-  direct.links.resize(links);
-  for (auto& corners : direct.of_leaf)
-    for (int32_t& corner : corners)
-      if (corner >= 0) corner = number[corner];
-  // Numbers keep their order.
-  size_t own = 0;
-  for (const CornerLight::OwnPoint& point : direct.own)
-    if (number[point.number] >= 0) direct.own[own++] = {number[point.number], point.x, point.y};
-  direct.own.resize(own);
+  number_points_by_leaves(
+      state_.direct, [](NodeId) { return true; },
+      [&](int32_t point, const Link& link) {
+        const Place& p = place_[static_cast<size_t>(point)];
+        return emitters.bright(emitters.all()[emitters.of_node(link.source)], {p.x, p.y, p.z},
+                               state_.forest.surfaces[p.surface].normal);
+      });
 }
 
 }  // namespace hrad

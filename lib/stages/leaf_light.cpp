@@ -6,6 +6,7 @@
 
 #include "base/hash.h"
 #include "links/element.h"
+#include "stages/exchange.h"
 #include "stages/state_memory.h"
 
 namespace hrad {
@@ -38,6 +39,11 @@ OrientedPoint middle_of(const Forest& forest, NodeId leaf) {
   return {forest.triangle(node).centroid(), forest.surfaces[node.surface].normal};
 }
 
+KeyedPoint keyed_middle_of(const Forest& forest, NodeId leaf) {
+  const Node& node = forest.nodes[leaf];
+  return {node.surface, key_of(forest, node), middle_of(forest, leaf)};
+}
+
 // Of the mean of a leaf: numbers of sampled points, and their weights.
 struct LeafLight::Shares {
   int count = 0;
@@ -63,22 +69,24 @@ std::vector<NodeId> LeafLight::new_leaves() {
 }
 
 bool LeafLight::name() {
-  const std::vector<NodeId> leaves = new_leaves();
+  std::vector<NodeId> leaves;
+  for (NodeId leaf : new_leaves())
+    if (tools_.exchange.mine(forest_.nodes[leaf].surface)) leaves.push_back(leaf);
   state_.direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
   std::vector<NodeId> partly_sealed;
   for (NodeId leaf : leaves)
     if (!take_corners(leaf)) partly_sealed.push_back(leaf);
   take_own_points(partly_sealed);
   std::vector<int32_t> centroids;
-  std::vector<OrientedPoint> middles;
+  std::vector<KeyedPoint> middles;
   for (NodeId leaf : leaves) {
-    middles.push_back(middle_of(forest_, leaf));
+    middles.push_back(keyed_middle_of(forest_, leaf));
     const bool wanted = forest_.nodes[leaf].light_points == at_corners;
     centroids.push_back(wanted ? corners_.add(leaf, number_of_centroid,
                                               forest_.triangle(forest_.nodes[leaf]).centroid())
                                : -1);
   }
-  state_.rays += grid_.open(middles, tools_.team);
+  state_.rays += open_cubes(grid_, middles, tools_);
   corners_.expect(corners_.asked());
   if (!corners_.sample()) return false;
   add_up_means(leaves, centroids);

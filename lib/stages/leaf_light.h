@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "stages/corner_light.h"
+#include "stages/open_cubes.h"
 
 namespace hrad {
 
 // What LightGrid decides by.
 OrientedPoint middle_of(const Forest& forest, NodeId leaf);
+KeyedPoint keyed_middle_of(const Forest& forest, NodeId leaf);
 
 // Of points that the mean of a large leaf is made of where it is known at no points of its own.
 constexpr int points_of_a_mean = 16;

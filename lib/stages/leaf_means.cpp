@@ -7,6 +7,7 @@
 #include "base/low_discrepancy.h"
 #include "base/triangle_points.h"
 #include "links/element.h"
+#include "stages/exchange.h"
 #include "stages/leaf_light.h"
 #include "stages/state_memory.h"
 
@@ -56,16 +57,23 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
   const size_t count = leaves.size();
   for (size_t first = 0; first < count; first += leaves_of_a_batch) {
     const size_t some = std::min(leaves_of_a_batch, count - first);
+    const auto is_mine = [&](size_t k) {
+      return tools_.exchange.mine(forest_.nodes[leaves[first + k]].surface);
+    };
     std::vector<std::vector<OrientedPoint>> points(some);
-    tools_.team.for_each(static_cast<int64_t>(some), [&](int64_t k, int) {
-      points[k] = points_over(leaves[first + static_cast<size_t>(k)], large);
+    tools_.team.for_each(static_cast<int64_t>(some), [&](int64_t turn, int) {
+      const size_t k = static_cast<size_t>(turn);
+      if (is_mine(k)) points[k] = points_over(leaves[first + k], large);
     });
-    std::vector<OrientedPoint> all;
+    std::vector<KeyedPoint> all;
     for (size_t k = 0; k < some; ++k) {
-      all.insert(all.end(), points[k].begin(), points[k].end());
-      all.push_back(middle_of(forest_, leaves[first + k]));
+      if (!is_mine(k)) continue;
+      const KeyedPoint middle = keyed_middle_of(forest_, leaves[first + k]);
+      all.push_back(middle);
+      for (size_t p = 0; p < points[k].size(); ++p)
+        all.push_back({middle.surface, mix(middle.key, p), points[k][p]});
     }
-    state_.rays += grid_.open(all, tools_.team);
+    state_.rays += open_cubes(grid_, all, tools_);
     const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
     if (const LinkStep* done = state_.journal.done(some, false, is_emitter)) {
       put_means(leaves, first, *done);
@@ -76,8 +84,10 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
     StageMemory memory(state_);
     const bool going_on = tools_.team.for_each(
         static_cast<int64_t>(some),
-        [&](int64_t k, int) {
-          const NodeId leaf = leaves[first + static_cast<size_t>(k)];
+        [&](int64_t turn, int) {
+          const size_t k = static_cast<size_t>(turn);
+          if (!is_mine(k)) return;
+          const NodeId leaf = leaves[first + k];
           const uint64_t key = key_of(forest_, forest_.nodes[leaf]);
           std::vector<Link> links;
           for (size_t p = 0; p < points[k].size(); ++p)
@@ -91,7 +101,7 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
           return tools_.progress((static_cast<double>(first) + static_cast<double>(done)) /
                                  static_cast<double>(count));
         });
-    if (!going_on) return false;
+    if (!tools_.exchange.all_go_on(going_on)) return false;
     LinkStep step;
     for (size_t k = 0; k < some; ++k) {
       step.rays += rays[k];

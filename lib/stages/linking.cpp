@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "stages/exchange.h"
+#include "stages/remote_links.h"
 #include "stages/state_memory.h"
 
 namespace hrad {
@@ -67,7 +69,10 @@ struct FacingTable {
 class PairLinker {
  public:
   PairLinker(const State& state, const StageTools& tools, const Brightness& brightness)
-      : forest_(state.forest), tools_(tools), brightness_(brightness) {
+      : forest_(state.forest),
+        tools_(tools),
+        brightness_(brightness),
+        remote_(tools.exchange.comm().size(), tools.exchange.owners()) {
     const size_t count = static_cast<size_t>(forest_.surface_count());
     roots_.reserve(count);
     for (size_t k = 0; k < count; ++k) {
@@ -78,16 +83,22 @@ class PairLinker {
     found_.resize(count);
   }
 
-  // All pairs of surface p with later ones.
-  void link(NodeId p, LinkSampler& sampler, int64_t* pairs) {
+  // Pairs of surface p with later ones: those that belong to one owner, or those of two.
+  enum class Which { of_one_owner, of_two_owners };
+  bool has_any(NodeId p, Which which) const {
+    for (int32_t other = 0; other < tools_.exchange.comm().size(); ++other)
+      if (is_mine(p, other, which)) return true;
+    return false;
+  }
+  void link(NodeId p, Which which, LinkSampler& sampler, int64_t* pairs) {
     const size_t first = static_cast<size_t>(p) + 1, count = roots_.size() - first;
     if (count == 0 || roots_[p].exposed <= 0) return;
     std::vector<uint8_t> faces(count);
     facing_->find(p, first, count, static_cast<float>(tools_.engine.offset() / 2), faces.data());
     Bundle bundle;
     for (size_t k = 0; k < count; ++k) {
-      if (!faces[k]) continue;
       const NodeId q = static_cast<NodeId>(first + k);
+      if (!faces[k] || !is_mine(p, tools_.exchange.owner(q), which)) continue;
       if (roots_[q].exposed <= 0) continue;
       ++*pairs;
       estimate(p, q, sampler, bundle);
@@ -103,21 +114,49 @@ class PairLinker {
     return static_cast<int64_t>(found_[p].size() * sizeof(Reciprocal));
   }
 
+  // To every owner the links of its receivers that were found here.
+  std::vector<Bytes> for_others() const {
+    const Exchange& exchange = tools_.exchange;
+    std::vector<Bytes> to(static_cast<size_t>(exchange.comm().size()));
+    for (size_t k = 0; k < found_.size(); ++k) {
+      const NodeId p = static_cast<NodeId>(k);
+      for (const Reciprocal& r : found_[k]) {
+        const FoundLink links[2] = {{p, {r.other, r.to_this}}, {r.other, {p, r.to_other}}};
+        for (const FoundLink& link : links)
+          if (!exchange.mine(link.receiver)) put(to[exchange.owner(link.receiver)], &link, 1);
+      }
+    }
+    return to;
+  }
+
   // Sorts the found links to their receivers: for each the sources in ascending order.
-  LinkTable collect() {
+  LinkTable collect(const std::vector<Bytes>& from_others) {
     LinkTable table;
     std::vector<std::vector<Link>> earlier(found_.size());
     std::vector<int32_t> counts(found_.size(), 0);
+    const Exchange& exchange = tools_.exchange;
     for (const auto& list : found_)
       for (const Reciprocal& r : list) ++counts[r.other];
     for (size_t k = 0; k < found_.size(); ++k)
       earlier[k].reserve(static_cast<size_t>(counts[k]) + found_[k].size());
+    for (const Bytes& bytes : from_others) {
+      Taker taker(bytes);
+      for (size_t k = 0; k < bytes.size() / sizeof(FoundLink); ++k) {
+        FoundLink found;
+        taker.take(&found, 1);
+        earlier[found.receiver].push_back(found.link);
+      }
+    }
     for (size_t p = 0; p < found_.size(); ++p) {
       // All surfaces before p have added theirs to earlier[p] by now.
       for (const Reciprocal& r : found_[p]) {
-        earlier[p].push_back({r.other, r.to_this});
-        earlier[r.other].push_back({static_cast<NodeId>(p), r.to_other});
+        if (exchange.mine(static_cast<int32_t>(p))) earlier[p].push_back({r.other, r.to_this});
+        if (exchange.mine(r.other))
+          earlier[r.other].push_back({static_cast<NodeId>(p), r.to_other});
       }
+      if (!exchange.alone())
+        std::sort(earlier[p].begin(), earlier[p].end(),
+                  [](const Link& a, const Link& b) { return a.source < b.source; });
       table.append(earlier[p]);
       std::vector<Link>().swap(earlier[p]);
       std::vector<Reciprocal>().swap(found_[p]);
@@ -127,6 +166,13 @@ class PairLinker {
   }
 
  private:
+  // Whether this process is to look at pairs of p with surfaces of that owner.
+  bool is_mine(NodeId p, int32_t other, Which which) const {
+    const int32_t owner = tools_.exchange.owner(p);
+    return (owner == other) == (which == Which::of_one_owner) &&
+           remote_.computed_by(owner, other) == tools_.exchange.comm().rank();
+  }
+
   // Up to four dim pairs that share a packet, four rays each.
   struct Bundle {
     int count = 0;
@@ -197,6 +243,7 @@ class PairLinker {
   const Forest& forest_;
   const StageTools& tools_;
   const Brightness& brightness_;
+  const RemoteLinks remote_;
   std::vector<Element> roots_;
   std::vector<uint64_t> keys_;
   std::unique_ptr<FacingTable> facing_;
@@ -213,17 +260,37 @@ bool link_pairs(State& state, const StageTools& tools, const Brightness& brightn
   std::vector<LinkSampler> samplers(tools.team.size(), model);
   std::vector<int64_t> pairs(tools.team.size(), 0);
   StageMemory memory(state);
-  const bool done = tools.team.for_each(
-      count,
-      [&](int64_t p, int worker) {
-        linker.link(static_cast<NodeId>(p), samplers[worker], &pairs[worker]);
-        memory.take(linker.bytes_found(p), "links");
-      },
-      [&](int64_t p) {
-        // Surface p has count-p partners.
-        const double left = 1 - static_cast<double>(p) / static_cast<double>(count);
-        return tools.progress(1 - left * left);
-      });
+  const auto look_at = [&](PairLinker::Which which) {
+    std::vector<NodeId> own;
+    for (int64_t p = 0; p < count; ++p)
+      if (linker.has_any(static_cast<NodeId>(p), which)) own.push_back(static_cast<NodeId>(p));
+    const bool going_on = tools.team.for_each(
+        static_cast<int64_t>(own.size()),
+        [&](int64_t turn, int worker) {
+          const NodeId p = own[static_cast<size_t>(turn)];
+          const int64_t before = linker.bytes_found(p);
+          linker.link(p, which, samplers[worker], &pairs[worker]);
+          memory.take(linker.bytes_found(p) - before, "links");
+        },
+        [&](int64_t turn) {
+          // Surface p has count-p partners.
+          const int64_t p = turn < static_cast<int64_t>(own.size()) ? own[turn] : count;
+          const double left = 1 - static_cast<double>(p) / static_cast<double>(count);
+          return tools.progress(1 - left * left);
+        });
+    return tools.exchange.all_go_on(going_on);
+  };
+  // Links that others wait for come first, and travel while own ones are looked at.
+  std::vector<Bytes> from_others;
+  bool done = true;
+  if (!tools.exchange.alone()) {
+    done = look_at(PairLinker::Which::of_two_owners);
+    if (done) tools.exchange.comm().start_exchange(linker.for_others());
+  }
+  if (done) {
+    done = look_at(PairLinker::Which::of_one_owner);
+    if (!tools.exchange.alone()) from_others = tools.exchange.comm().finish_exchange();
+  }
   for (int worker = 0; worker < tools.team.size(); ++worker) {
     state.rays += samplers[worker].rays();
     state.pairs += pairs[worker];
@@ -232,8 +299,9 @@ bool link_pairs(State& state, const StageTools& tools, const Brightness& brightn
   int64_t found = 0;
   for (int64_t p = 0; p < count; ++p) found += linker.bytes_found(p);
   memory.take(2 * found, "links");  // each in both directions, in two places for a while
-  state.links = linker.collect();
+  state.links = linker.collect(from_others);
   memory.settle();
+  tools.exchange.ask_for_sources(state);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "stages/cluster_round.h"
+#include "stages/exchange.h"
 #include "stages/state_memory.h"
 #include "stages/subtree_refiner.h"
 #include "stages/sweep.h"
@@ -40,9 +41,45 @@ int64_t bytes_of(const SubtreeResult& result) {
   return static_cast<int64_t>(bytes);
 }
 
-// Gives the new elements of a task their numbers; new_links: of all its elements.
-void store(State& state, SubtreeResult& result, std::vector<LinkTable::NewRun>& new_links,
-           std::vector<Task>& next) {
+// The elements that tasks have made, known to all; links stay with the owners of their receivers.
+void share_elements(std::vector<SubtreeResult>& results, const std::vector<Task>& tasks,
+                    const State& state, const Exchange& exchange) {
+  if (exchange.alone()) return;
+  struct Made {
+    Node place;
+    NodeId old_id;
+    int32_t parent, first_child;
+  };
+  const auto surface_of = [&](size_t k) { return state.forest.nodes[tasks[k].root].surface; };
+  std::vector<uint8_t> handed_on;
+  std::vector<std::vector<Made>> made(results.size());
+  for (size_t k = 0; k < results.size(); ++k) {
+    handed_on.push_back(results[k].handed_on ? 1 : 0);
+    bool any = results[k].handed_on;
+    for (const SubtreeNode& node : results[k].nodes) any = any || node.old_id < 0;
+    if (!any) continue;
+    for (const SubtreeNode& node : results[k].nodes)
+      made[k].push_back({node.place, node.old_id, node.parent, node.first_child});
+  }
+  exchange.share(handed_on, surface_of);
+  exchange.share_lists(made, surface_of);
+  for (size_t k = 0; k < results.size(); ++k) {
+    if (exchange.mine(surface_of(k))) continue;
+    results[k].handed_on = handed_on[k] != 0;
+    for (const Made& from : made[k]) {
+      SubtreeNode node;
+      node.place = from.place;
+      node.old_id = from.old_id;
+      node.parent = from.parent;
+      node.first_child = from.first_child;
+      results[k].nodes.push_back(std::move(node));
+    }
+  }
+}
+
+// Gives the new elements of a task their numbers; new_links: of all its elements, if they are mine.
+void store(State& state, SubtreeResult& result, bool mine,
+           std::vector<LinkTable::NewRun>& new_links, std::vector<Task>& next) {
   Forest& forest = state.forest;
   std::vector<NodeId> id(result.nodes.size());
   for (size_t at = 0; at < result.nodes.size(); ++at) {
@@ -61,7 +98,7 @@ void store(State& state, SubtreeResult& result, std::vector<LinkTable::NewRun>& 
         state.irradiance.push_back(state.irradiance[from + band]);
       }
     }
-    if (!(result.handed_on && at > 0)) new_links.push_back({id[at], node.run});
+    if (mine && !(result.handed_on && at > 0)) new_links.push_back({id[at], node.run});
   }
   for (size_t at = 0; at < result.nodes.size(); ++at) {
     const SubtreeNode& node = result.nodes[at];
@@ -99,7 +136,6 @@ bool refine(State& state, const StageTools& tools, const Brightness& brightness,
       return false;
     for (size_t k = 0; k < tasks.size(); ++k) tasks[k].met = std::move(clusters.met[k]);
   }
-  const int64_t surfaces = state.forest.surface_count();
   int64_t finished = 0;
   while (!tasks.empty()) {
     StageMemory memory(state);
@@ -108,9 +144,13 @@ bool refine(State& state, const StageTools& tools, const Brightness& brightness,
     std::vector<std::unique_ptr<SubtreeRefiner>> refiners(tools.team.size());
     for (auto& refiner : refiners)
       refiner = std::make_unique<SubtreeRefiner>(state, tools, brightness, points.get());
+    std::vector<size_t> own;
+    for (size_t k = 0; k < tasks.size(); ++k)
+      if (tools.exchange.mine(state.forest.nodes[tasks[k].root].surface)) own.push_back(k);
     const bool going_on = tools.team.for_each(
-        static_cast<int64_t>(tasks.size()),
-        [&](int64_t k, int worker) {
+        static_cast<int64_t>(own.size()),
+        [&](int64_t turn, int worker) {
+          const size_t k = own[static_cast<size_t>(turn)];
           const Task& task = tasks[k];
           const int64_t work =
               weight[task.root] + static_cast<int64_t>(task.arriving.size() + task.met.size());
@@ -122,17 +162,20 @@ bool refine(State& state, const StageTools& tools, const Brightness& brightness,
           // Later passes are small beside the first. They are always carried to their end: nothing
           // may be left of a round half done.
           if (finished > 0) return true;
-          return tools.progress(static_cast<double>(done) / static_cast<double>(surfaces));
+          return tools.progress(static_cast<double>(done) / static_cast<double>(own.size()));
         });
-    if (!going_on) return false;
+    if (!tools.exchange.all_go_on(going_on)) return false;
+    share_elements(results, tasks, state, tools.exchange);
     std::vector<Task> next;
     std::vector<LinkTable::NewRun> new_links;
     if (finished == 0) store(state, clusters, new_links);
     int64_t links = 0;
-    for (SubtreeResult& result : results) {
-      state.rays += result.rays;
-      store(state, result, new_links, next);
-      for (const SubtreeNode& node : result.nodes) links += static_cast<int64_t>(node.run.size());
+    for (size_t k = 0; k < results.size(); ++k) {
+      state.rays += results[k].rays;
+      store(state, results[k], tools.exchange.mine(state.forest.nodes[tasks[k].root].surface),
+            new_links, next);
+      for (const SubtreeNode& node : results[k].nodes)
+        links += static_cast<int64_t>(node.run.size());
     }
     // In two places for a while, though old ones go as new ones come.
     memory.take(
@@ -154,6 +197,7 @@ bool refine(State& state, const StageTools& tools, const Brightness& brightness,
         state.links[k].count() > 0)
       sealed.push_back({static_cast<NodeId>(k), {}});
   state.links.replace(std::move(sealed));
+  tools.exchange.ask_for_sources(state);
   return true;
 }
 

@@ -7,12 +7,16 @@
 #include <utility>
 
 #include "stages/cell_contrast.h"
+#include "stages/exchange.h"
 
 namespace hrad {
 namespace {
 
 // An element whose middles are known already is divided for this share of the tolerance.
 constexpr double worth_keeping = 0.5;
+
+// Of an open element: whether it is divided, and its children opened.
+enum Fate : uint8_t { stays, is_divided, goes_on };
 
 // To guess how much work there will be: points of direct light for each cell, work on a point
 // beside its shadow rays, and on a ray of a row with all that follows from it, in shadow rays.
@@ -52,7 +56,8 @@ bool RowMesh::build() {
   open_grid(open);
   if (settings_.means_only) return name_leaves();
   if (!keep_small_patches(open)) return false;
-  for (NodeId id : open) want_corners(id);
+  for (NodeId id : open)
+    if (is_mine(id)) want_corners(id);
   return sample_corners() && refine(std::move(open)) && name_leaves();
 }
 
@@ -78,7 +83,7 @@ void RowMesh::open_grid(const std::vector<NodeId>& cells) {
     for (const Vec3& corner : {t.a, t.b, t.c})
       points.push_back({(corner + middle.place) * 0.5, middle.normal});
   }
-  state_.rays += grid_.open(points, tools_.team);
+  state_.rays += grid_.open(points, tools_.team, tools_.exchange.comm());
   guess_share(cells, points);
 }
 
@@ -96,6 +101,8 @@ void RowMesh::guess_share(const std::vector<NodeId>& cells,
   if (shadow > 0) share_ = shadow / (shadow + rows);
 }
 
+bool RowMesh::is_mine(NodeId id) const { return tools_.exchange.mine(forest_.nodes[id].surface); }
+
 bool RowMesh::sample_corners() {
   if (!corners_.sample()) return false;
   memory_.settle();
@@ -103,10 +110,16 @@ bool RowMesh::sample_corners() {
 }
 
 void RowMesh::measure_exposure(NodeId from) {
-  tools_.team.for_each(static_cast<int64_t>(forest_.nodes.size()) - from, [&](int64_t k, int) {
-    Node& node = forest_.nodes[from + k];
-    if (node.exposed > 0 && node.exposed < 1) node.exposed = sampler_.exposed_share(node);
+  std::vector<NodeId> partly;
+  for (NodeId id = from; id < static_cast<NodeId>(forest_.nodes.size()); ++id)
+    if (forest_.nodes[id].exposed > 0 && forest_.nodes[id].exposed < 1) partly.push_back(id);
+  std::vector<float> exposed(partly.size());
+  tools_.team.for_each(static_cast<int64_t>(partly.size()), [&](int64_t k, int) {
+    const Node& node = forest_.nodes[partly[k]];
+    if (is_mine(partly[k])) exposed[k] = sampler_.exposed_share(node);
   });
+  tools_.exchange.share(exposed, [&](size_t k) { return forest_.nodes[partly[k]].surface; });
+  for (size_t k = 0; k < partly.size(); ++k) forest_.nodes[partly[k]].exposed = exposed[k];
 }
 
 void RowMesh::make_cells() {
@@ -131,24 +144,28 @@ void RowMesh::make_cells() {
 // as it is, and taken out of `open`.
 bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
   for (NodeId id : open)
-    if (forest_.nodes[id].level == 0) want_half_way(id);
+    if (forest_.nodes[id].level == 0 && is_mine(id)) want_half_way(id);
   if (!sample_corners()) return false;
-  std::vector<NodeId> rest;
-  for (NodeId id : open) {
-    if (forest_.nodes[id].level == 0) {
-      LatticePoint point[3];
-      half_way_points(forest_.nodes[id], point);
-      double low = 1e300, high = -1;
-      for (const LatticePoint& p : point) {
-        low = std::min(low, corners_.value(id, p));
-        high = std::max(high, corners_.value(id, p));
-      }
-      if (low >= 0 && weighed((high - low) / 2, forest_.area(forest_.nodes[id])) <= 1) {
-        forest_.nodes[id].light_points = half_way_to_the_middle;
-        continue;
-      }
+  std::vector<uint8_t> kept(open.size(), 0);
+  for (size_t k = 0; k < open.size(); ++k) {
+    Node& node = forest_.nodes[open[k]];
+    if (node.level > 0 || !is_mine(open[k])) continue;
+    LatticePoint point[3];
+    half_way_points(node, point);
+    double low = 1e300, high = -1;
+    for (const LatticePoint& p : point) {
+      low = std::min(low, corners_.value(node.surface, p));
+      high = std::max(high, corners_.value(node.surface, p));
     }
-    rest.push_back(id);
+    kept[k] = low >= 0 && weighed((high - low) / 2, forest_.area(node)) <= 1;
+  }
+  tools_.exchange.share(kept, [&](size_t k) { return forest_.nodes[open[k]].surface; });
+  std::vector<NodeId> rest;
+  for (size_t k = 0; k < open.size(); ++k) {
+    if (kept[k])
+      forest_.nodes[open[k]].light_points = half_way_to_the_middle;
+    else
+      rest.push_back(open[k]);
   }
   open.swap(rest);
   return true;
@@ -176,21 +193,30 @@ void RowMesh::want_middles(NodeId id) {
 // Divides the open elements, whose corners are known, until direct light is linear between them.
 bool RowMesh::refine(std::vector<NodeId> open) {
   while (!open.empty()) {
-    std::vector<NodeId> asked;
-    for (NodeId id : open)
-      if (may_divide(id)) asked.push_back(id);
-    for (NodeId id : asked) want_middles(id);
+    std::vector<uint8_t> asked(open.size(), 0);
+    int64_t count = 0;
+    for (size_t k = 0; k < open.size(); ++k) {
+      asked[k] = is_mine(open[k]) && may_divide(open[k]);
+      if (asked[k]) want_middles(open[k]);
+      count += asked[k];
+    }
     // Later levels together ask for about as many, and each leaf for its middle.
     const int64_t leaves = static_cast<int64_t>(forest_.nodes.size()) * 3 / 4;
-    corners_.expect(corners_.asked() + static_cast<int64_t>(asked.size()) + leaves);
+    corners_.expect(corners_.asked() + count + leaves);
     if (!sample_corners()) return false;
+    std::vector<uint8_t> fate(open.size(), stays);
+    for (size_t k = 0; k < open.size(); ++k) {
+      if (!asked[k]) continue;
+      const double error = deviation(open[k]);
+      fate[k] = error > 1 ? goes_on : error > worth_keeping ? is_divided : stays;
+    }
+    tools_.exchange.share(fate, [&](size_t k) { return forest_.nodes[open[k]].surface; });
     const NodeId end = static_cast<NodeId>(forest_.nodes.size());
     std::vector<NodeId> families;
-    for (NodeId id : asked) {
-      const double error = deviation(id);
-      if (error <= worth_keeping) continue;
-      const NodeId first = add_children(id);
-      if (error > 1) families.push_back(first);
+    for (size_t k = 0; k < open.size(); ++k) {
+      if (fate[k] == stays) continue;
+      const NodeId first = add_children(open[k]);
+      if (fate[k] == goes_on) families.push_back(first);
     }
     measure_exposure(end);
     open.clear();
@@ -238,7 +264,7 @@ double RowMesh::deviation(NodeId id) const {
 
 bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells) {
   new_cells.clear();
-  const std::vector<float> contrast = contrast_of_cells(state_, brightness);
+  const std::vector<float> contrast = contrast_of_cells(state_, brightness, tools_.exchange);
   std::vector<uint8_t> divide(state_.cells.size());
   for (size_t k = 0; k < divide.size(); ++k) {
     const Node& node = forest_.nodes[state_.cells[k]];
@@ -257,7 +283,7 @@ bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& ne
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
   for (NodeId id : leaves) {
     const NodeId first = add_children(id);
-    if (settings_.means_only) continue;
+    if (settings_.means_only || !is_mine(id)) continue;
     if (forest_.nodes[id].light_points == half_way_to_the_middle) {
       for (NodeId child = first; child < first + 4; ++child) {
         forest_.nodes[child].light_points = half_way_to_the_middle;

@@ -32,6 +32,7 @@ class RowMesh {
   void drop_what_is_unnamed() { corners_.drop_what_is_unnamed(); }
 
  private:
+  bool is_mine(NodeId id) const;
   NodeId add_children(NodeId parent);
   void measure_exposure(NodeId from);
   void open_grid(const std::vector<NodeId>& cells);

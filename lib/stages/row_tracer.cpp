@@ -9,6 +9,7 @@
 #include "base/low_discrepancy.h"
 #include "base/triangle_points.h"
 #include "links/element.h"
+#include "stages/exchange.h"
 #include "stages/leaf_light.h"
 
 namespace hrad {
@@ -128,6 +129,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
           const int64_t from = first + task * rows_of_a_task;
           for (int64_t k = from; k < std::min(end, from + rows_of_a_task); ++k) {
             links.clear();
+            if (!tools.exchange.mine(forest.nodes[cells[k]].surface)) continue;
             if (forest.nodes[cells[k]].exposed > 0) tracer.trace(cells[k], rays_of_cell[k], links);
             rows[k - first].assign(links.begin(), links.end());
             bytes += static_cast<int64_t>(links.size() * sizeof(Link));
@@ -140,6 +142,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
               (static_cast<double>(first) + static_cast<double>(done * rows_of_a_task)) /
               static_cast<double>(count + rows_of_a_task));
         });
+    going_on = tools.exchange.all_go_on(going_on);
     if (!going_on) break;
     LinkStep step;
     for (int64_t r : rays) step.rays += r;
@@ -152,6 +155,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     state.journal.record(std::move(step));
     memory.settle();
   }
+  if (going_on) tools.exchange.ask_for_sources(state);
   return going_on;
 }
 

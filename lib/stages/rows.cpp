@@ -55,14 +55,11 @@ void stay_near_the_mean(const State& state, Brightness& light) {
     for (float& value : *values) value = static_cast<float>(value * factor);
 }
 
-Brightness light_of_pilot_rows(State& state, ThreadTeam& team) {
+Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
   reset_to_emission(state);
   GatherSpace space;
-  for (int k = 0; k < pilot_sweeps; ++k) {
-    gather(state, team, space);
-    push_pull(state, team);
-  }
-  Brightness light = measure_brightness(state, team);
+  for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, space);
+  Brightness light = measure_brightness(state, tools.team, tools.exchange);
   stay_near_the_mean(state, light);
   return light;
 }
@@ -148,7 +145,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
     if (!trace_rows(state, part_of(tools, from, from + step), pilot, grid, cells,
                     rays_by_area(state, pilot, cells), memory))
       return false;
-    const Brightness seen = light_of_pilot_rows(state, tools.team);
+    const Brightness seen = light_of_pilot_rows(state, tools);
     rays = rays_by_variance(state, settings, seen);
     if (round + 1 == pilot_rounds) break;
     if (!mesh.divide_cells(seen, cells)) return false;

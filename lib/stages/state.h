@@ -2,6 +2,7 @@
 // Floor 7 (stages).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -35,6 +36,10 @@ struct CornerLight {
     float x, y;
   };
   std::vector<OwnPoint> own;
+  Span<const Link> links_of_point(int32_t point) const {
+    const size_t at = static_cast<size_t>(point);
+    return {links.data() + first[at], static_cast<size_t>(first[at + 1] - first[at])};
+  }
   size_t point_count() const { return first.empty() ? 0 : first.size() - 1; }
 };
 
@@ -54,9 +59,25 @@ struct State {
   MemoryBudget memory;  // of scene, ray engine, elements and links
 };
 
+class Exchange;
+
+// Where the three points of its own lie in a leaf, nullptr: it has none.
+inline const CornerLight::OwnPoint* own_points(const State& state, NodeId leaf) {
+  if (state.forest.nodes[leaf].light_points != at_own_points) return nullptr;
+  const CornerLight& direct = state.direct;
+  const int32_t first = direct.of_leaf[leaf][0];
+  const auto found = std::lower_bound(
+      direct.own.begin(), direct.own.end(), first,
+      [](const CornerLight::OwnPoint& p, int32_t number) { return p.number < number; });
+  return found != direct.own.end() && found->number == first ? &*found : nullptr;
+}
+
+class Exchange;
+
 // What every stage needs of its surroundings.
 struct StageTools {
   ThreadTeam& team;
+  Exchange& exchange;
   const VisibilityEngine& engine;
   const Exposure& exposure;
   OracleSettings oracle;

@@ -11,23 +11,28 @@ namespace {
 
 constexpr int64_t surfaces_of_a_task = 64;
 
+// Of those that are this process's own.
 template <class Body>
-void for_each_surface(const State& state, ThreadTeam& team, Body&& body) {
+void for_each_surface(const State& state, ThreadTeam& team, const Exchange& exchange, Body&& body) {
   const int64_t count = state.forest.surface_count();
   team.for_each((count + surfaces_of_a_task - 1) / surfaces_of_a_task, [&](int64_t task, int) {
     const int64_t end = std::min(count, (task + 1) * surfaces_of_a_task);
-    for (int64_t k = task * surfaces_of_a_task; k < end; ++k) body(static_cast<NodeId>(k));
+    for (int64_t k = task * surfaces_of_a_task; k < end; ++k)
+      if (exchange.mine(static_cast<int32_t>(k))) body(static_cast<NodeId>(k));
   });
 }
 
 // Per surface one row of `bands` sums, made by row_of(root, row), then added in key order: the same
 // bits however many threads.
 template <class RowOf>
-std::vector<double> surface_sums(const State& state, ThreadTeam& team, RowOf&& row_of) {
+std::vector<double> surface_sums(const State& state, ThreadTeam& team, const Exchange& exchange,
+                                 RowOf&& row_of) {
   const int bands = state.bands;
   std::vector<double> rows(static_cast<size_t>(state.forest.surface_count()) * bands, 0.0);
-  for_each_surface(state, team,
+  for_each_surface(state, team, exchange,
                    [&](NodeId root) { row_of(root, &rows[static_cast<size_t>(root) * bands]); });
+  exchange.share_rows(rows, static_cast<size_t>(bands),
+                      [](size_t k) { return static_cast<int32_t>(k); });
   std::vector<double> total(bands, 0.0);
   for (size_t k = 0; k < rows.size();)
     for (int b = 0; b < bands; ++b) total[b] += rows[k++];
@@ -87,9 +92,9 @@ class PushPull {
 };
 
 template <int Bands>
-std::vector<double> push_pull_all(State& state, ThreadTeam& team) {
+std::vector<double> push_pull_all(State& state, ThreadTeam& team, const Exchange& exchange) {
   const Scene& scene = *state.forest.scene;
-  return surface_sums(state, team, [&](NodeId root, double* row) {
+  return surface_sums(state, team, exchange, [&](NodeId root, double* row) {
     const Surface& surface = state.forest.surfaces[root];
     const size_t patch = static_cast<size_t>(surface.patch) * state.bands;
     double weight = 0, from_above[most_bands] = {};
@@ -141,11 +146,20 @@ float spread_below(const State& state, NodeId id, const std::vector<double>& uni
 
 }  // namespace
 
-std::vector<double> push_pull(State& state, ThreadTeam& team) {
+std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, GatherSpace& space) {
+  gather(state, team, space);
+  const std::vector<double> transported = push_pull(state, team, exchange);
+  exchange.update(state);
+  return transported;
+}
+
+std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange) {
   push_to_roots(state);
-  const std::vector<double> transported = state.bands == 3   ? push_pull_all<3>(state, team)
-                                          : state.bands == 1 ? push_pull_all<1>(state, team)
-                                                             : push_pull_all<0>(state, team);
+  const std::vector<double> transported = state.bands == 3 ? push_pull_all<3>(state, team, exchange)
+                                          : state.bands == 1
+                                              ? push_pull_all<1>(state, team, exchange)
+                                              : push_pull_all<0>(state, team, exchange);
+  exchange.share_roots(state);
   pull_to_clusters(state);
   return transported;
 }
@@ -174,10 +188,10 @@ void reset_to_emission(State& state) {
   pull_to_clusters(state);
 }
 
-Brightness measure_brightness(const State& state, ThreadTeam& team) {
+Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange) {
   const double area = state.forest.total_area();
   Brightness brightness;
-  brightness.unit = surface_sums(state, team, [&](NodeId root, double* row) {
+  brightness.unit = surface_sums(state, team, exchange, [&](NodeId root, double* row) {
     visit_leaves(state.forest, root, [&](NodeId id, double leaf_area) {
       const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
       for (int b = 0; b < state.bands; ++b)
@@ -189,8 +203,11 @@ Brightness measure_brightness(const State& state, ThreadTeam& team) {
   for (size_t k = 0; k < brightness.of_node.size(); ++k)
     brightness.of_node[k] = brightness_of(&state.radiosity[k * state.bands], brightness.unit);
   brightness.spread.resize(state.forest.nodes.size());
-  for_each_surface(state, team, [&](NodeId root) {
-    spread_below(state, root, brightness.unit, brightness.spread);
+  const int64_t roots = state.forest.surface_count();
+  team.for_each((roots + surfaces_of_a_task - 1) / surfaces_of_a_task, [&](int64_t task, int) {
+    const int64_t end = std::min(roots, (task + 1) * surfaces_of_a_task);
+    for (int64_t k = task * surfaces_of_a_task; k < end; ++k)
+      spread_below(state, static_cast<NodeId>(k), brightness.unit, brightness.spread);
   });
   spread_to_clusters(state.forest, brightness);
   return brightness;

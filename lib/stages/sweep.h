@@ -2,15 +2,21 @@
 // down to the leaves, their radiosity B = E + rho H pulled up again. Floor 7 (stages).
 #pragma once
 
+#include "stages/exchange.h"
+#include "stages/gather.h"
 #include "stages/state.h"
 
 namespace hrad {
+
+// One iteration: gathering over own links, sweeping on own surfaces, and their radiosity told to
+// whoever has asked for it. Returns what push_pull() does.
+std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, GatherSpace& space);
 
 // From what gather() left in state.irradiance makes that and state.radiosity of every node. Means
 // are over the exposed part; a node sealed all over has B = E and H = 0. Returns the radiosity
 // transported: irradiance times exposed area over all leaves, per band, W, added up per surface in
 // key order.
-std::vector<double> push_pull(State& state, ThreadTeam& team);
+std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange);
 
 // New elements know better than their parents what is sealed: these take the mean of their
 // children.
@@ -20,7 +26,7 @@ void pull_exposure(Forest& forest);
 void reset_to_emission(State& state);
 
 // Units, brightness and its spread, from the present radiosity.
-Brightness measure_brightness(const State& state, ThreadTeam& team);
+Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange);
 
 // Before there is any irradiance: emitters by emission, the rest by the scene's mean
 // interreflection.

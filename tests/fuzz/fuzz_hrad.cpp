@@ -13,6 +13,7 @@
 #include "solver/reconstruction.h"
 #include "stages/gather.h"
 #include "stages/sweep.h"
+#include "support/alone.h"
 #include "support/checkpoint_frame.h"
 
 namespace {
@@ -40,10 +41,11 @@ void use(hrad::CheckpointContent& content) {
   hrad::ThreadTeam team(1);
   const auto leaves = state.forest.leaves();
   std::vector<double> light(3 * static_cast<size_t>(state.bands));
-  const hrad::Reconstruction linear(state, leaves);
+  hrad_test::Alone alone(state);
+  const hrad::Reconstruction linear(state, leaves, alone.exchange);
   for (hrad::NodeId leaf : leaves) linear.corners(leaf, light.data());
   hrad::gather(state, team);
-  hrad::push_pull(state, team);
+  hrad::push_pull(state, team, alone.exchange);
 }
 
 }  // namespace

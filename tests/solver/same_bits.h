@@ -3,17 +3,22 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "api/guard.h"
 #include "solver/solver.h"
 #include "support/check.h"
+#include "support/thread_ranks.h"
 
 namespace hrad_test {
 
 struct Surroundings {
   int threads;
   const char* instruction_set;
+  int ranks = 1;
+  const char* partition = "cost";
 };
 
 struct Case {
@@ -29,12 +34,17 @@ struct Results {
   uint64_t hash = 0;
   int64_t rays = 0, links = 0, elements = 0, iterations = 0;
   std::vector<double> numbers;
+  bool operator==(const Results& other) const {
+    return hash == other.hash && rays == other.rays && links == other.links &&
+           elements == other.elements && iterations == other.iterations && numbers == other.numbers;
+  }
 };
 
 // False where this processor lacks the instruction set.
-inline bool solve_in(const Case& c, const Surroundings& in, Results& results) {
-  hrad::Solver solver;
+inline bool solve_in(hrad::Solver& solver, const Case& c, const Surroundings& in,
+                     Results& results) {
   solver.make_scene(c.scene);
+  solver.set_text("partition", in.partition);
   solver.set_text("linking", c.linking);
   solver.set_text("oracle", c.oracle);
   solver.set_double("accuracy", c.accuracy);
@@ -50,6 +60,7 @@ inline bool solve_in(const Case& c, const Surroundings& in, Results& results) {
   CHECK(solver.solve() == hrad::Status::ok);
   const hrad::Stats stats = solver.stats();
   CHECK_EQUAL(stats.threads, in.threads);
+  CHECK_EQUAL(stats.ranks, in.ranks);
   results.hash = solver.state_hash();
   results.rays = stats.rays;
   results.links = stats.links;
@@ -78,6 +89,22 @@ inline bool solve_in(const Case& c, const Surroundings& in, Results& results) {
   return true;
 }
 
+// On so many ranks, all of which must see the same; results: rank 0's.
+inline bool solve_in(const Case& c, const Surroundings& in, Results& results) {
+  std::vector<Results> of_rank(static_cast<size_t>(in.ranks));
+  std::vector<uint8_t> possible(of_rank.size(), 0);
+  on_ranks(in.ranks, [&](hrad::Comm& comm) {
+    const std::shared_ptr<hrad::Comm> shared(std::shared_ptr<hrad::Comm>(), &comm);
+    hrad::Solver solver(shared);
+    const size_t rank = static_cast<size_t>(comm.rank());
+    hrad::api::agreed(comm, [&] { possible[rank] = solve_in(solver, c, in, of_rank[rank]); });
+  });
+  results = of_rank[0];
+  for (const Results& other : of_rank)
+    if (!(other == results)) failed(__FILE__, __LINE__, "ranks see different solutions");
+  return possible[0] != 0;
+}
+
 inline void check_same_bits(const Case& c, const std::vector<Surroundings>& all) {
   Results first;
   bool any = false;
@@ -86,14 +113,13 @@ inline void check_same_bits(const Case& c, const std::vector<Surroundings>& all)
     if (!solve_in(c, in, other)) continue;
     if (!any) first = other;
     any = true;
-    const bool same = other.hash == first.hash && other.rays == first.rays &&
-                      other.links == first.links && other.elements == first.elements &&
-                      other.iterations == first.iterations && other.numbers == first.numbers;
-    if (!same)
-      failed(__FILE__, __LINE__,
-             hrad::format("%s by %s, oracle=%s: %d threads with %s give other bits than %d with %s",
-                          c.scene, c.linking, c.oracle, in.threads, in.instruction_set,
-                          all[0].threads, all[0].instruction_set));
+    if (!(other == first))
+      failed(
+          __FILE__, __LINE__,
+          hrad::format("%s by %s, oracle=%s: %d ranks by %s of %d threads with %s give other bits "
+                       "than %d of %d with %s",
+                       c.scene, c.linking, c.oracle, in.ranks, in.partition, in.threads,
+                       in.instruction_set, all[0].ranks, all[0].threads, all[0].instruction_set));
   }
   CHECK(any);
 }

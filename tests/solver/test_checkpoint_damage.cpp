@@ -8,6 +8,7 @@
 #include "solver/checkpoint_files.h"
 #include "stages/gather.h"
 #include "stages/sweep.h"
+#include "support/alone.h"
 #include "support/checkpoint_frame.h"
 
 using hrad::PackedBytes;
@@ -51,7 +52,8 @@ std::string refusal_of(const std::string& bytes) {
       hrad::State& state = *content->state;
       hrad::ThreadTeam team(1);
       hrad::gather(state, team);
-      hrad::push_pull(state, team);
+      hrad_test::Alone alone(state);
+      hrad::push_pull(state, team, alone.exchange);
       CHECK(!state.forest.leaves().empty());
     }
     return "";

@@ -7,6 +7,7 @@
 
 #include "hierarchy/corner_index.h"
 #include "solver/reconstruction.h"
+#include "support/alone.h"
 #include "support/workbench.h"
 #include "visibility/brute_force.h"
 
@@ -19,7 +20,7 @@ using namespace hrad_test;
 // at the centroids.
 struct Field {
   explicit Field(Scene s, int bands = 1)
-      : scene(std::move(s)), state(scene), forest(state.forest), bands(bands) {
+      : scene(std::move(s)), state(scene), forest(state.forest), bands(bands), alone(state) {
     state.bands = bands;
   }
 
@@ -37,7 +38,7 @@ struct Field {
       for (int b = 0; b < bands; ++b)
         state.irradiance[static_cast<size_t>(leaf) * bands + b] =
             static_cast<float>(f(forest.triangle(forest.nodes[leaf]).centroid(), b));
-    linear = std::make_unique<Reconstruction>(state, leaves);
+    linear = std::make_unique<Reconstruction>(state, leaves, alone.exchange);
   }
 
   // The value of surface `root` at its (u,v).
@@ -52,6 +53,7 @@ struct Field {
   Forest& forest;
   int bands;
   std::vector<NodeId> leaves;
+  Alone alone;
   std::unique_ptr<Reconstruction> linear;
 };
 
@@ -234,7 +236,7 @@ void sides_and_strangers_do_not_mix() {
     return surface.patch >= 2 ? 9.0f : surface.side ? 4.0f : 1.0f;
   };
   for (const Node& node : field.forest.nodes) field.state.irradiance.push_back(value_of(node));
-  field.linear = std::make_unique<Reconstruction>(field.state, field.leaves);
+  field.linear = std::make_unique<Reconstruction>(field.state, field.leaves, field.alone.exchange);
   for (NodeId root = 0; root < field.forest.surface_count(); ++root)
     for (double u : {0.0, 0.1, 0.5})
       for (double v : {0.0, 0.2, 0.5})

@@ -33,7 +33,7 @@ struct Squares {
       runs.push_back({static_cast<NodeId>(k), {&link[k], 1}});
     }
     bench.state.links.replace(runs);
-    return contrast_of_cells(bench.state, brightness);
+    return contrast_of_cells(bench.state, brightness, bench.exchange);
   }
 
   Workbench bench;

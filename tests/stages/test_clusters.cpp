@@ -161,7 +161,7 @@ void light_is_pushed_and_pulled() {
   for (NodeId root = 0; root < state.forest.surface_count(); ++root)
     state.forest.nodes[root].exposed = root % 4 == 1 ? 0.25f : 1.0f;
   measure_clusters(state.forest);
-  push_pull(state, bench.team);
+  push_pull(state, bench.team, bench.exchange);
   const Scene& scene = bench.scene;
   for (NodeId root = 0; root < state.forest.surface_count(); ++root)
     for (size_t b = 0; b < bands; ++b) {
@@ -218,7 +218,7 @@ void threads_change_no_bit() {
 void a_stop_leaves_the_state_as_it_was() {
   Clustered bench(builtin_scene("furnished-room"), 1),
       untouched(builtin_scene("furnished-room"), 1);
-  const Brightness brightness = measure_brightness(bench.state, bench.team);
+  const Brightness brightness = measure_brightness(bench.state, bench.team, bench.exchange);
   // After each number of calls in turn: among the clusters, and among the elements.
   for (int calls : {0, 3, 30}) {
     StageTools tools = bench.tools(fitted(settings(0.3), bench.state));

@@ -232,7 +232,7 @@ void threads_change_no_bit() {
 void a_stop_leaves_the_state_as_it_was() {
   for (OracleKind kind : kinds) {
     Refined bench(builtin_scene("cornell"), kind, 1), untouched(builtin_scene("cornell"), kind, 1);
-    const Brightness brightness = measure_brightness(bench.state, bench.team);
+    const Brightness brightness = measure_brightness(bench.state, bench.team, bench.exchange);
     StageTools tools = bench.tools(settings(kind, 0.3));
     tools.progress = [](double) { return false; };
     CHECK(!refine_links(bench.state, tools, brightness));

@@ -317,7 +317,7 @@ void seeds_differ_by_noise_alone() {
     CHECK(rows.link());
     rows.bench.sweep(29);
     gather(rows.bench.state, rows.bench.team);
-    totals.push_back(push_pull(rows.bench.state, rows.bench.team)[0]);
+    totals.push_back(push_pull(rows.bench.state, rows.bench.team, rows.bench.exchange)[0]);
   }
   for (const double& total : totals) {
     CHECK_NEAR(total, totals[0], 0.01 * totals[0]);

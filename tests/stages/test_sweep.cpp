@@ -72,7 +72,7 @@ void leaves_have_what_all_above_them_gathered() {
     Tree tree(bands);
     const Forest& forest = tree.state.forest;
     const std::vector<float> gathered = tree.state.irradiance;
-    push_pull(tree.state, tree.team);
+    push_pull(tree.state, tree.team, tree.exchange);
     int lit = 0, sealed = 0;
     for (NodeId leaf : forest.leaves()) {
       const Node& node = forest.nodes[leaf];
@@ -94,7 +94,7 @@ void leaves_have_what_all_above_them_gathered() {
 void parents_have_the_means_of_their_children() {
   Tree tree;
   const Forest& forest = tree.state.forest;
-  push_pull(tree.state, tree.team);
+  push_pull(tree.state, tree.team, tree.exchange);
   for (size_t k = 0; k < forest.nodes.size(); ++k) {
     const Node& node = forest.nodes[k];
     if (node.first_child < 0) continue;
@@ -121,7 +121,7 @@ void parents_have_the_means_of_their_children() {
 void sealed_surfaces_only_emit() {
   Tree tree;
   for (Node& node : tree.state.forest.nodes) node.exposed = 0;
-  push_pull(tree.state, tree.team);
+  push_pull(tree.state, tree.team, tree.exchange);
   for (size_t k = 0; k < tree.state.forest.nodes.size(); ++k)
     for (int b = 0; b < 2; ++b) {
       CHECK_EQUAL(tree.state.irradiance[2 * k + b], 0.0f);
@@ -132,7 +132,7 @@ void sealed_surfaces_only_emit() {
 
 void reset_leaves_emission_alone() {
   Tree tree;
-  push_pull(tree.state, tree.team);
+  push_pull(tree.state, tree.team, tree.exchange);
   reset_to_emission(tree.state);
   const size_t count = tree.state.forest.nodes.size() * 2;
   CHECK_EQUAL(tree.state.radiosity.size(), count);
@@ -150,7 +150,7 @@ void reset_leaves_emission_alone() {
 void transported_light_is_that_of_the_leaves() {
   Tree tree;
   const Forest& forest = tree.state.forest;
-  const std::vector<double> total = push_pull(tree.state, tree.team);
+  const std::vector<double> total = push_pull(tree.state, tree.team, tree.exchange);
   CHECK_EQUAL(total.size(), size_t{2});
   for (int b = 0; b < 2; ++b) {
     double wanted = 0;
@@ -236,7 +236,7 @@ void sweeps_reach_the_solution() {
   bench.state.links.replace({{0, {&to_wall, 1}}, {1, {&to_lamp, 1}}});
   bench.sweep(59);
   gather(bench.state, bench.team);
-  const std::vector<double> total = push_pull(bench.state, bench.team);
+  const std::vector<double> total = push_pull(bench.state, bench.team, bench.exchange);
   const double lamp = 2 / (1 - 0.4 * 0.5 * 0.8 * 0.5), wall = 0.8 * 0.5 * lamp;
   CHECK_NEAR(bench.state.radiosity[0], lamp, 1e-6);
   CHECK_NEAR(bench.state.radiosity[1], wall, 1e-6);
@@ -252,7 +252,7 @@ void threads_change_no_bit() {
     bench.prepare();
     for (size_t k = 0; k < bench.state.irradiance.size(); ++k)
       bench.state.irradiance[k] = static_cast<float>(unit_interval(mix(k, 7)));
-    const std::vector<double> sum = push_pull(bench.state, bench.team);
+    const std::vector<double> sum = push_pull(bench.state, bench.team, bench.exchange);
     if (threads == 1) {
       radiosity = bench.state.radiosity;
       total = sum;
@@ -265,8 +265,8 @@ void threads_change_no_bit() {
 void brightness_is_in_units_of_the_irradiance() {
   Tree tree;
   const Forest& forest = tree.state.forest;
-  push_pull(tree.state, tree.team);
-  const Brightness brightness = measure_brightness(tree.state, tree.team);
+  push_pull(tree.state, tree.team, tree.exchange);
+  const Brightness brightness = measure_brightness(tree.state, tree.team, tree.exchange);
   CHECK_EQUAL(brightness.unit.size(), size_t{2});
   CHECK_EQUAL(brightness.of_node.size(), forest.nodes.size());
   double area = 0;
@@ -292,8 +292,8 @@ void brightness_is_in_units_of_the_irradiance() {
 void spread_bounds_the_deviation_of_the_leaves() {
   Tree tree;
   Forest& forest = tree.state.forest;
-  push_pull(tree.state, tree.team);
-  const Brightness brightness = measure_brightness(tree.state, tree.team);
+  push_pull(tree.state, tree.team, tree.exchange);
+  const Brightness brightness = measure_brightness(tree.state, tree.team, tree.exchange);
   int uneven = 0;
   for (NodeId leaf : forest.leaves()) {
     CHECK_EQUAL(brightness.spread[leaf], 0.0f);
@@ -308,14 +308,15 @@ void spread_bounds_the_deviation_of_the_leaves() {
   CHECK(uneven > 100);
   // Even light has none.
   std::fill(tree.state.radiosity.begin(), tree.state.radiosity.end(), 0.5f);
-  for (float spread : measure_brightness(tree.state, tree.team).spread) CHECK_EQUAL(spread, 0.0f);
+  for (float spread : measure_brightness(tree.state, tree.team, tree.exchange).spread)
+    CHECK_EQUAL(spread, 0.0f);
 }
 
 void a_dark_band_has_no_unit() {
   Tree tree;
   for (size_t k = 0; k < tree.state.irradiance.size(); k += 2) tree.state.irradiance[k] = 0;
-  push_pull(tree.state, tree.team);
-  const Brightness brightness = measure_brightness(tree.state, tree.team);
+  push_pull(tree.state, tree.team, tree.exchange);
+  const Brightness brightness = measure_brightness(tree.state, tree.team, tree.exchange);
   CHECK_EQUAL(brightness.unit[0], 0.0);
   CHECK(brightness.unit[1] > 0);
 }
@@ -330,8 +331,8 @@ void expected_brightness_foresees_the_measured_one() {
   for (double unit : expected.unit) CHECK_NEAR(unit, 0.5, 1e-9);
   for (float value : expected.of_node) CHECK_NEAR(value, 1, 1e-6);
   std::fill(bench.state.irradiance.begin(), bench.state.irradiance.end(), 2.0f);
-  push_pull(bench.state, bench.team);
-  const Brightness measured = measure_brightness(bench.state, bench.team);
+  push_pull(bench.state, bench.team, bench.exchange);
+  const Brightness measured = measure_brightness(bench.state, bench.team, bench.exchange);
   for (size_t b = 0; b < measured.unit.size(); ++b)
     CHECK_NEAR(measured.unit[b], expected.unit[b], 1e-6);
 }

@@ -1,5 +1,5 @@
-/* Whether a sanitizer watches this program: HRAD_TEST_ADDRESSES, HRAD_TEST_THREADS are 1 or 0. GCC and
- * clang tell it in different words. */
+/* Whether a sanitizer watches this program: HRAD_TEST_ADDRESSES, HRAD_TEST_THREADS are 1 or 0. GCC
+ * and clang tell it in different words. */
 #ifndef HRAD_TESTS_SANITIZED_H
 #define HRAD_TESTS_SANITIZED_H
 

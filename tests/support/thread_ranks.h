@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -12,7 +13,7 @@
 
 #include "machine/comm.h"
 
-namespace test {
+namespace hrad_test {
 
 // What the ranks share.
 class Hub {
@@ -48,7 +49,6 @@ class CommThreads final : public hrad::Comm {
   CommThreads(Hub& hub, int rank) : hub_(hub), rank_(rank) {}
   int rank() const override { return rank_; }
   int size() const override { return hub_.size; }
-  int local_size() const override { return hub_.size; }
 
  protected:
   using Bytes = hrad::Bytes;
@@ -111,16 +111,24 @@ class CommThreads final : public hrad::Comm {
   std::vector<Bytes> on_the_way_;
 };
 
-// Runs body(comm) on so many ranks at once.
+// Runs body(comm) on so many ranks at once; then throws what the lowest one threw, if any did. All
+// must end: a rank that fails alone leaves the others waiting.
 inline void on_ranks(int ranks, const std::function<void(hrad::Comm&)>& body) {
   Hub hub(ranks);
   std::vector<std::thread> threads;
+  std::vector<std::exception_ptr> thrown(static_cast<size_t>(ranks));
   for (int rank = 0; rank < ranks; ++rank)
-    threads.emplace_back([&hub, rank, &body] {
+    threads.emplace_back([&, rank] {
       CommThreads comm(hub, rank);
-      body(comm);
+      try {
+        body(comm);
+      } catch (...) {
+        thrown[rank] = std::current_exception();
+      }
     });
   for (std::thread& thread : threads) thread.join();
+  for (const std::exception_ptr& exception : thrown)
+    if (exception) std::rethrow_exception(exception);
 }
 
-}  // namespace test
+}  // namespace hrad_test

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "links/link_sampler.h"
+#include "machine/comm_self.h"
 #include "scene/load.h"
 #include "stages/gather.h"
 #include "stages/linking.h"
@@ -55,10 +56,11 @@ struct Workbench {
         team(threads),
         engine(hrad::make_visibility_engine(scene, "builtin", "auto", team)),
         exposure(scene, *engine),
-        state(scene) {}
+        state(scene),
+        exchange(comm, std::vector<int32_t>(state.forest.surfaces.size(), 0)) {}
 
   hrad::StageTools tools(const hrad::OracleSettings& oracle) {
-    return {team, *engine, exposure, oracle, [](double) { return true; }};
+    return {team, exchange, *engine, exposure, oracle, [](double) { return true; }};
   }
 
   hrad::LinkSampler sampler(double near_ratio = 0.4, uint64_t seed = 1) const {
@@ -91,12 +93,12 @@ struct Workbench {
   void sweep(int times) {
     for (int k = 0; k < times; ++k) {
       hrad::gather(state, team);
-      hrad::push_pull(state, team);
+      hrad::push_pull(state, team, exchange);
     }
   }
 
   void refine(const hrad::OracleSettings& oracle) {
-    const hrad::Brightness brightness = hrad::measure_brightness(state, team);
+    const hrad::Brightness brightness = hrad::measure_brightness(state, team, exchange);
     CHECK(hrad::refine_links(state, tools(oracle), brightness));
   }
 
@@ -105,6 +107,8 @@ struct Workbench {
   std::unique_ptr<hrad::VisibilityEngine> engine;
   hrad::Exposure exposure;
   hrad::State state;
+  hrad::CommSelf comm;
+  hrad::Exchange exchange;
 };
 
 }  // namespace hrad_test

@@ -1,0 +1,110 @@
+// Results of tasks, each done by one process, made known to all of them. Floor 2 (machine).
+#pragma once
+
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+#include "machine/comm.h"
+
+namespace hrad {
+
+// Values one after the other in bytes, and out of them again.
+template <class T>
+void put(Bytes& bytes, const T* values, size_t count) {
+  static_assert(std::is_trivially_copyable<T>::value, "bytes are all there is to it");
+  const char* first = reinterpret_cast<const char*>(values);
+  bytes.insert(bytes.end(), first, first + count * sizeof(T));
+}
+class Taker {
+ public:
+  explicit Taker(const Bytes& bytes) : next_(bytes.data()) {}
+  template <class T>
+  void take(T* values, size_t count) {
+    if (count == 0) return;
+    std::memcpy(static_cast<void*>(values), next_, count * sizeof(T));
+    next_ += count * sizeof(T);
+  }
+
+ private:
+  const char* next_;
+};
+inline std::vector<Taker> takers(const std::vector<Bytes>& all) {
+  return std::vector<Taker>(all.begin(), all.end());
+}
+
+// Collective. Of `count` items each belongs to a rank, owner_of(k): `write(k, bytes)` is called for
+// this rank's own, and then `read(k, taker)` for those of all others, in order.
+template <class OwnerOf, class Write, class Read>
+void share(Comm& comm, size_t count, const OwnerOf& owner_of, const Write& write,
+           const Read& read) {
+  if (comm.alone()) return;
+  Bytes own;
+  for (size_t k = 0; k < count; ++k)
+    if (owner_of(k) == comm.rank()) write(k, own);
+  const std::vector<Bytes> all = comm.gather_all(own);
+  std::vector<Taker> from = takers(all);
+  for (size_t k = 0; k < count; ++k)
+    if (owner_of(k) != comm.rank()) read(k, from[static_cast<size_t>(owner_of(k))]);
+}
+
+// The same of values, and of lists of values.
+template <class T, class OwnerOf>
+void share_values(Comm& comm, std::vector<T>& values, const OwnerOf& owner_of) {
+  share(
+      comm, values.size(), owner_of, [&](size_t k, Bytes& bytes) { put(bytes, &values[k], 1); },
+      [&](size_t k, Taker& taker) { taker.take(&values[k], 1); });
+}
+template <class T, class OwnerOf>
+void share_lists(Comm& comm, std::vector<std::vector<T>>& lists, const OwnerOf& owner_of) {
+  share(
+      comm, lists.size(), owner_of,
+      [&](size_t k, Bytes& bytes) {
+        const uint64_t size = lists[k].size();
+        put(bytes, &size, 1);
+        put(bytes, lists[k].data(), lists[k].size());
+      },
+      [&](size_t k, Taker& taker) {
+        uint64_t size;
+        taker.take(&size, 1);
+        lists[k].resize(size);
+        taker.take(lists[k].data(), size);
+      });
+}
+
+// Collective. Rank 0's values, on all.
+template <class T>
+void broadcast(Comm& comm, std::vector<T>& values) {
+  if (comm.alone()) return;
+  Bytes bytes;
+  if (comm.rank() == 0) put(bytes, values.data(), values.size());
+  comm.broadcast(bytes);
+  values.resize(bytes.size() / sizeof(T));
+  Taker(bytes).take(values.data(), values.size());
+}
+
+// Collective. Every process's values, one after the other.
+template <class T>
+void unite(Comm& comm, std::vector<T>& values) {
+  if (comm.alone()) return;
+  Bytes own;
+  put(own, values.data(), values.size());
+  values.clear();
+  for (const Bytes& bytes : comm.gather_all(own)) {
+    const size_t before = values.size();
+    values.resize(before + bytes.size() / sizeof(T));
+    Taker(bytes).take(values.data() + before, values.size() - before);
+  }
+}
+
+// Of tasks that belong to nobody each process takes its turn.
+inline bool is_my_turn(const Comm& comm, size_t task) {
+  return task % static_cast<size_t>(comm.size()) == static_cast<size_t>(comm.rank());
+}
+template <class T>
+void share_turns(Comm& comm, std::vector<T>& values) {
+  share_values(comm, values,
+               [&](size_t k) { return static_cast<int>(k % static_cast<size_t>(comm.size())); });
+}
+
+}  // namespace hrad

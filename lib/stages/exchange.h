@@ -1,0 +1,95 @@
+// What the owners of surfaces tell each other (paper, Section 3.1): the results of tasks, each done
+// by one of them, and radiosity. Elements are known to all; links only to the owner of their
+// receiver. With one owner of everything nothing is exchanged. Floor 7 (stages).
+#pragma once
+
+#include <vector>
+
+#include "machine/sharing.h"
+#include "stages/state.h"
+
+namespace hrad {
+
+// By kind: ids of elements whose radiosity is asked for (R), radiosity (U), what roots received and
+// the radiosity transported (T).
+struct MessageCounts {
+  int64_t messages[3] = {0, 0, 0}, bytes[3] = {0, 0, 0};
+};
+
+class Exchange {
+ public:
+  // owner_of_surface: a rank for each; comm must outlive this.
+  Exchange(Comm& comm, std::vector<int32_t> owner_of_surface);
+
+  bool alone() const { return comm_.alone(); }
+  int32_t owner(int32_t surface) const { return owner_[surface]; }
+  const std::vector<int32_t>& owners() const { return owner_; }
+  bool mine(int32_t surface) const { return owner_[surface] == comm_.rank(); }
+  bool mine(const Forest& forest, NodeId id) const { return mine(surface_of(forest, id)); }
+  // A cluster belongs to the owner of its first surface.
+  static int32_t surface_of(const Forest& forest, NodeId id) {
+    const Node& node = forest.nodes[id];
+    return Forest::is_cluster(node) ? forest.clusters.order[forest.cluster(node).first]
+                                    : node.surface;
+  }
+  // Of tasks that belong to no surface each takes its turn.
+  bool my_turn(int64_t task) const { return is_my_turn(comm_, static_cast<size_t>(task)); }
+
+  // Collective, as all that follows: whether every one of them goes on.
+  bool all_go_on(bool mine) const { return comm_.all_go_on(mine); }
+
+  // values[k] belongs to surface_of(k): each owner gives its own, and has all of them afterwards.
+  template <class T, class SurfaceOf>
+  void share(std::vector<T>& values, const SurfaceOf& surface_of) const {
+    share_values(comm_, values, [&](size_t k) { return owner_[surface_of(k)]; });
+  }
+  template <class T, class SurfaceOf>
+  void share_lists(std::vector<std::vector<T>>& lists, const SurfaceOf& surface_of) const {
+    hrad::share_lists(comm_, lists, [&](size_t k) { return owner_[surface_of(k)]; });
+  }
+  // Every process's values one after the other, in any order.
+  template <class T>
+  void unite(std::vector<T>& values) const {
+    hrad::unite(comm_, values);
+  }
+  // values[k] where each took its turn.
+  template <class T>
+  void share_turns(std::vector<T>& values) const {
+    hrad::share_turns(comm_, values);
+  }
+  // The same of rows of so many values.
+  template <class T, class SurfaceOf>
+  void share_rows(std::vector<T>& rows, size_t values, const SurfaceOf& surface_of) const {
+    hrad::share(
+        comm_, rows.size() / values, [&](size_t k) { return owner_[surface_of(k)]; },
+        [&](size_t k, Bytes& bytes) { put(bytes, &rows[k * values], values); },
+        [&](size_t k, Taker& taker) { taker.take(&rows[k * values], values); });
+  }
+
+  // Asks for the elements that own links have begun to name since the last time (R).
+  void ask_for_sources(const State& state);
+  // Tells others the radiosity of what they have asked for (U): theirs is here afterwards.
+  void update(State& state);
+  // Light on the roots, known to all (T).
+  void share_roots(State& state);
+  // Light on all elements, known to all.
+  void share_light(State& state) const;
+  // The hierarchy has gone back to the roots: nothing is asked for any more.
+  void forget();
+
+  const MessageCounts& counts() const { return counts_; }
+  Comm& comm() const { return comm_; }
+
+ private:
+  void share_light_of(State& state, size_t nodes, int64_t* sent) const;
+  void count(int kind, const std::vector<Bytes>& sent);
+
+  Comm& comm_;
+  const std::vector<int32_t> owner_;
+  std::vector<uint8_t> asked_;                 // per node
+  std::vector<std::vector<NodeId>> asked_of_;  // per rank, in the order of asking
+  std::vector<std::vector<NodeId>> asked_by_;  // likewise
+  MessageCounts counts_;
+};
+
+}  // namespace hrad

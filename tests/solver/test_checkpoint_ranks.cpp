@@ -1,0 +1,160 @@
+// Checkpoints of several ranks: the bytes are those of one rank, and any number of ranks reads them
+// and goes on to the same end.
+#include <vector>
+
+#include "api/guard.h"
+#include "solver/checkpoint_files.h"
+#include "support/thread_ranks.h"
+
+using hrad::Comm;
+using hrad::Solver;
+using namespace hrad_test;
+
+namespace {
+
+const SolveCase cases[] = {{"furnished-room", "rows", "error", 0.1},
+                           {"cornell", "rows", "error", 0.1, "means"},
+                           {"cornell", "pairs", "error", 0.4},
+                           {"furnished-room", "clusters", "error", 0.5},
+                           {"cornell", "rows", "error", 0.2, "points", 5}};
+
+std::unique_ptr<Solver> solver_on(Comm& comm, const SolveCase& c) {
+  auto solver = std::make_unique<Solver>(std::shared_ptr<Comm>(std::shared_ptr<Comm>(), &comm));
+  solver->set_int("bands", c.bands);
+  solver->set_text("linking", c.linking);
+  solver->set_text("oracle", c.oracle);
+  solver->set_double("accuracy", c.accuracy);
+  solver->set_text("detail", c.detail);
+  solver->set_int("threads", 1);
+  return solver;
+}
+
+template <class Body>
+void on_solvers(int ranks, const SolveCase& c, const Body& body) {
+  on_ranks(ranks, [&](Comm& comm) {
+    hrad::api::agreed(comm, [&] {
+      const auto solver = solver_on(comm, c);
+      body(*solver);
+    });
+  });
+}
+
+void the_bytes_are_those_of_one() {
+  const Folder folder("ranks");
+  for (const SolveCase& c : cases) {
+    std::string bytes;
+    for (int ranks : {1, 2, 3, 5}) {
+      on_solvers(ranks, c, [&](Solver& solver) {
+        solver.make_scene(c.scene);
+        solver.solve();
+        solver.stats();
+        const uint64_t hash = solver.state_hash();
+        solver.write_checkpoint(folder.file("a.hrad"));
+        CHECK(solver.state_hash() == hash);
+      });
+      const std::string written = bytes_of_file(folder.file("a.hrad"));
+      CHECK(written.size() > 1000);
+      if (ranks == 1) bytes = written;
+      CHECK(written == bytes);
+    }
+  }
+}
+
+// Written by so many, read by others, who write it again.
+void any_number_reads() {
+  const Folder folder("ranks");
+  for (const SolveCase& c : cases) {
+    uint64_t hash = 0;
+    const double xyz[] = {0.4, 0.5, 0.25}, normal[] = {0, 0.5, 1};
+    std::vector<double> sensors;
+    for (int ranks : {3, 1, 4}) {
+      on_solvers(ranks, c, [&](Solver& solver) {
+        if (ranks == 3) {
+          solver.make_scene(c.scene);
+          solver.solve();
+        } else {
+          solver.read_checkpoint(folder.file("a.hrad"));
+        }
+        std::vector<double> light(5 * static_cast<size_t>(c.bands));
+        solver.query_sensors(1, xyz, normal, light.data(), light.data() + c.bands);
+        solver.leaf_corner_radiosity(0, light.data() + 2 * c.bands);
+        const hrad::Stats stats = solver.stats();
+        light.push_back(static_cast<double>(stats.rays));
+        light.push_back(static_cast<double>(stats.links));
+        const uint64_t own = solver.state_hash();
+        if (solver.comm().rank() == 0) {
+          if (ranks == 3) {
+            hash = own;
+            sensors = light;
+          }
+          CHECK(own == hash);
+          CHECK(light == sensors);
+        }
+        solver.write_checkpoint(folder.file("b.hrad"));
+      });
+      if (ranks == 3) write_bytes(folder.file("a.hrad"), bytes_of_file(folder.file("b.hrad")));
+      CHECK(bytes_of_file(folder.file("a.hrad")) == bytes_of_file(folder.file("b.hrad")));
+    }
+  }
+}
+
+// A re-solve after a change of light on other ranks, and a finer one, are what they would be.
+void solving_goes_on() {
+  const Folder folder("ranks");
+  for (const SolveCase& c : cases) {
+    on_solvers(2, c, [&](Solver& solver) {
+      solver.make_scene(c.scene);
+      solver.solve();
+      solver.write_checkpoint(folder.file("a.hrad"));
+    });
+    for (int refine : {0, 1}) {
+      uint64_t hash = 0;
+      for (int ranks : {1, 3}) {
+        on_solvers(ranks, c, [&](Solver& solver) {
+          solver.read_checkpoint(folder.file("a.hrad"));
+          std::vector<double> half(static_cast<size_t>(c.bands), 0.25);
+          solver.set_reflectance(0, 1, half.data());
+          solver.set_int("refine", refine);
+          solver.solve();
+          const uint64_t own = solver.state_hash();
+          if (solver.comm().rank() > 0) return;
+          if (ranks == 1) hash = own;
+          CHECK(own == hash);
+        });
+      }
+    }
+  }
+}
+
+// Rank 0 can't write: all fail alike, and the solvers are as before.
+void a_folder_that_is_not_there() {
+  const SolveCase& c = cases[1];
+  on_ranks(3, [&](Comm& comm) {
+    const auto solver = solver_on(comm, c);
+    solver->make_scene(c.scene);
+    solver->solve();
+    const uint64_t hash = solver->state_hash();
+    bool failed_so = false;
+    try {
+      hrad::api::agreed(comm, [&] { solver->write_checkpoint("/no/such/folder/a.hrad"); });
+    } catch (const hrad::Error& error) {
+      failed_so = error.status() == hrad::Status::file &&
+                  std::string(error.what()).find("/no/such/folder") != std::string::npos;
+    }
+    const bool same = solver->state_hash() == hash;
+    comm.all_go_on();
+    CHECK(failed_so && same);
+  });
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      HRAD_TEST(the_bytes_are_those_of_one),
+      HRAD_TEST(any_number_reads),
+      HRAD_TEST(solving_goes_on),
+      HRAD_TEST(a_folder_that_is_not_there),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
