@@ -10,6 +10,10 @@ namespace hrad {
 bool Comm::agree(Word mine, const char* message) {
   mine.raised = has_raised_ ? 1 : 0;
   has_raised_ = false;
+  if (alone()) {
+    if (mine.status < 0) throw AgreedError(static_cast<Status>(mine.status), message);
+    return mine.goes_on != 0;
+  }
   const std::vector<Word> words = do_tell(mine);
   int others_raised = 0, failed = -1;
   bool all = true;
