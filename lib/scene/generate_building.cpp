@@ -11,10 +11,10 @@ namespace hrad {
 namespace {
 
 // Inner measures of a room; rooms repeat with the pitch, walls and slabs between them.
-constexpr Point room_size{5000, 4000, 3000};
+constexpr GridPoint room_size{5000, 4000, 3000};
 constexpr int32_t wall_thickness = 200, slab_thickness = 300;
-constexpr Point pitch{room_size.x + wall_thickness, room_size.y + wall_thickness,
-                      room_size.z + slab_thickness};
+constexpr GridPoint pitch{room_size.x + wall_thickness, room_size.y + wall_thickness,
+                          room_size.z + slab_thickness};
 // Where a door opening begins along its wall, in a room's own coordinates.
 constexpr int32_t door_width = 900, door_height = 2100;
 constexpr int32_t door_in_east_wall = 2800, door_in_north_wall = 3700;
@@ -60,15 +60,15 @@ Palette add_palette(Scene& scene) {
   return p;
 }
 
-Point corner_of_room(int column, int row, int storey) {
+GridPoint corner_of_room(int column, int row, int storey) {
   return {column * pitch.x, row * pitch.y, storey * pitch.z};
 }
 
 // A wall of a room at `at` on the axis (0 or 1), with an opening from `door` on if door >= 0.
-Outline wall(Point low, int axis, int32_t at, bool positive, int32_t door) {
+Outline wall(GridPoint low, int axis, int32_t at, bool positive, int32_t door) {
   const int along = 1 - axis;
   const auto corner = [&](int32_t a, int32_t z) {
-    return axis == 0 ? Point{at, low.y + a, low.z + z} : Point{low.x + a, at, low.z + z};
+    return axis == 0 ? GridPoint{at, low.y + a, low.z + z} : GridPoint{low.x + a, at, low.z + z};
   };
   const int32_t width = room_size[along], height = room_size.z;
   if (door < 0)
@@ -81,9 +81,9 @@ Outline wall(Point low, int axis, int32_t at, bool positive, int32_t door) {
 }
 
 // Sill, head and the two jambs of an opening through the wall behind `at` on the axis.
-void add_opening(Polyhedron& shell, Point room, int axis, int32_t at, int32_t door,
+void add_opening(Polyhedron& shell, GridPoint room, int axis, int32_t at, int32_t door,
                  const Palette& p) {
-  Point low, high;
+  GridPoint low, high;
   if (axis == 0) {
     low = {at, room.y + door, room.z};
     high = {at + wall_thickness, low.y + door_width, room.z + door_height};
@@ -103,7 +103,7 @@ void add_storey(Scene& scene, const Layout& layout, int storey, const Palette& p
   Polyhedron shell;
   for (int row = 0; row < layout.rows; ++row) {
     for (int column = 0; column < layout.columns; ++column) {
-      const Point low = corner_of_room(column, row, storey), high = low + room_size;
+      const GridPoint low = corner_of_room(column, row, storey), high = low + room_size;
       const bool east = layout.opens_east(column), north = layout.opens_north(column, row);
       const bool west = column > 0, south = layout.opens_north(column, row - 1);
       shell.add_face(rectangle(2, low.z, low, high, true), p.floor);
@@ -120,10 +120,10 @@ void add_storey(Scene& scene, const Layout& layout, int storey, const Palette& p
 }
 
 // Lamp 12, table 28, chair 40, couch 16, cabinet 12: 108 triangles.
-void furnish(Scene& scene, Point room, const Palette& p) {
+void furnish(Scene& scene, GridPoint room, const Palette& p) {
   const Place place{room};
   // Hung 10 cm below the ceiling.
-  add_lamp(scene, room + Point{1900, 1700, 2840}, room + Point{3100, 2300, 2900}, p.housing,
+  add_lamp(scene, room + GridPoint{1900, 1700, 2840}, room + GridPoint{3100, 2300, 2900}, p.housing,
            p.light);
   // A board on two side panels; at its long side a chair whose back leans.
   const Profile table{{0, 0},    {720, 0},    {720, 1520}, {0, 1520},

@@ -83,7 +83,7 @@ void add_window_bay(Polyhedron& shell, int row, const Palette& p) {
   on_wall(y0, window_low, w0, window_high);
   on_wall(w1, window_low, y1, window_high);
   on_wall(y0, window_high, y1, height);
-  const Point low{-recess, w0, window_low}, high{0, w1, window_high};
+  const GridPoint low{-recess, w0, window_low}, high{0, w1, window_high};
   shell.add_face(rectangle(1, low.y, low, high, true), p.wall);
   shell.add_face(rectangle(1, high.y, low, high, false), p.wall);
   shell.add_face(rectangle(2, low.z, low, high, true), p.wall);
@@ -95,18 +95,18 @@ void add_shell(Scene& scene, const Layout& layout, const Palette& p) {
   Polyhedron shell;
   for (int row = 0; row < layout.rows; ++row) {
     for (int column = 0; column < layout.columns; ++column) {
-      const Point low{column * bay, row * bay, 0}, high = low + Point{bay, bay, height};
+      const GridPoint low{column * bay, row * bay, 0}, high = low + GridPoint{bay, bay, height};
       shell.add_face(rectangle(2, 0, low, high, true), p.floor);
       shell.add_face(rectangle(2, height, low, high, false), p.ceiling);
     }
   }
   for (int column = 0; column < layout.columns; ++column) {
-    const Point low{column * bay, 0, 0}, high{low.x + bay, layout.depth(), height};
+    const GridPoint low{column * bay, 0, 0}, high{low.x + bay, layout.depth(), height};
     shell.add_face(rectangle(1, low.y, low, high, true), p.wall);
     shell.add_face(rectangle(1, high.y, low, high, false), p.wall);
   }
   for (int row = 0; row < layout.rows; ++row) {
-    const Point low{0, row * bay, 0}, high{layout.width(), low.y + bay, height};
+    const GridPoint low{0, row * bay, 0}, high{layout.width(), low.y + bay, height};
     shell.add_face(rectangle(0, high.x, low, high, false), p.wall);
     add_window_bay(shell, row, p);
   }
@@ -117,9 +117,9 @@ void add_shell(Scene& scene, const Layout& layout, const Palette& p) {
 void add_lamps(Scene& scene, const Layout& layout, const Palette& p) {
   for (int row = 0; row < layout.rows; ++row) {
     for (int column = 0; column < layout.columns; ++column) {
-      const Point middle{column * bay + bay / 2, row * bay + bay / 2, height};
-      add_lamp(scene, middle + Point{-600, -150, -80}, middle + Point{600, 150, 0}, p.housing,
-               p.light);
+      const GridPoint middle{column * bay + bay / 2, row * bay + bay / 2, height};
+      add_lamp(scene, middle + GridPoint{-600, -150, -80}, middle + GridPoint{600, 150, 0},
+               p.housing, p.light);
     }
   }
 }

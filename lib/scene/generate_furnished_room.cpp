@@ -10,7 +10,7 @@
 namespace hrad {
 
 void generate_furnished_room(Scene& scene, int) {
-  constexpr Point size{4800, 3600, 2700};
+  constexpr GridPoint size{4800, 3600, 2700};
   const int32_t wall = add_rgb_material(scene, "wall", {.70, .67, .60});
   const int32_t warm_wall = add_rgb_material(scene, "wall-warm", {.66, .40, .28});
   const int32_t floor = add_rgb_material(scene, "floor", {.38, .30, .22});

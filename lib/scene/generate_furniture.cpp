@@ -21,7 +21,7 @@ constexpr int32_t board_heights[5] = {100, 520, 940, 1360, 1780};
 // A spot for an object on one half (600 x 600) of a desk: its lowest corner, its size, and how much
 // larger it may be. The stacked book lies on the first one.
 struct DeskSpot {
-  Point low, size, spread;
+  GridPoint low, size, spread;
   bool stacked;
 };
 constexpr DeskSpot desk_spots[desk_object_count / 2] = {
@@ -34,7 +34,7 @@ constexpr DeskSpot desk_spots[desk_object_count / 2] = {
 };
 constexpr int32_t spot_slack = 10;  // an object is moved by up to this along x and y
 
-Point varied_size(const DeskSpot& spot, uint64_t seed) {
+GridPoint varied_size(const DeskSpot& spot, uint64_t seed) {
   return {spot.size.x + vary(seed, 1, spot.spread.x + 1),
           spot.size.y + vary(seed, 2, spot.spread.y + 1),
           spot.size.z + vary(seed, 3, spot.spread.z + 1)};
@@ -44,7 +44,7 @@ Point varied_size(const DeskSpot& spot, uint64_t seed) {
 
 void add_chair(Scene& scene, const Place& place, int32_t wood) {
   constexpr int32_t size = 400, inset = 10, thick = 30, seat = 430, seat_top = 450;
-  const auto box = [&](Point low, Point high) { add_box(scene, place, low, high, wood); };
+  const auto box = [&](GridPoint low, GridPoint high) { add_box(scene, place, low, high, wood); };
   constexpr int32_t sides[2] = {inset, size - inset - thick};
   for (const int32_t x : sides)
     for (const int32_t y : sides) box({x, y, 0}, {x + thick, y + thick, seat});
@@ -73,7 +73,7 @@ void add_desk(Scene& scene, const Place& place, int32_t width, int32_t depth, in
 
 void add_bookcase(Scene& scene, const Place& place, int32_t width, int32_t wood) {
   const int32_t inner = width - board_thickness;
-  const auto box = [&](Point low, Point high) { add_box(scene, place, low, high, wood); };
+  const auto box = [&](GridPoint low, GridPoint high) { add_box(scene, place, low, high, wood); };
   box({0, -case_depth, 0}, {board_thickness, 0, case_height});
   box({inner, -case_depth, 0}, {width, 0, case_height});
   box({board_thickness, -case_back_thickness, 0}, {inner, 0, case_height});
@@ -105,12 +105,12 @@ void add_desk_object(Scene& scene, const Place& desk, int object, uint64_t seed,
   const uint64_t half_seed = mix(seed, static_cast<uint64_t>(half));
   const uint64_t own = mix(half_seed, static_cast<uint64_t>(kind) + 2);
   const DeskSpot& spot = desk_spots[kind];
-  const Point size = varied_size(spot, own);
-  Point low = spot.low + Point{half * (desk_width / 2), 0, desk_height};
+  const GridPoint size = varied_size(spot, own);
+  GridPoint low = spot.low + GridPoint{half * (desk_width / 2), 0, desk_height};
   // The second book lies within the cover of the first: that one is moved and is larger.
   const uint64_t mover = spot.stacked ? mix(half_seed, 2) : own;
-  low = low + Point{vary(mover, 4, spot_slack), vary(mover, 5, spot_slack), 0};
-  if (spot.stacked) low = low + Point{5, 10, varied_size(desk_spots[0], mover).z};
+  low = low + GridPoint{vary(mover, 4, spot_slack), vary(mover, 5, spot_slack), 0};
+  if (spot.stacked) low = low + GridPoint{5, 10, varied_size(desk_spots[0], mover).z};
   add_box(scene, desk, low, low + size, covers[(object + vary(own, 6, 3)) % 3]);
 }
 

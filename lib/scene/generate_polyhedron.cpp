@@ -13,13 +13,13 @@ namespace hrad {
 namespace {
 
 using GridKey = std::array<int32_t, 3>;
-GridKey key(Point p) { return {p.x, p.y, p.z}; }
+GridKey key(GridPoint p) { return {p.x, p.y, p.z}; }
 
 // Twice the polygon's area, projected along each axis (Newell).
 std::array<int64_t, 3> area_vector(const Outline& outline) {
   std::array<int64_t, 3> sum{};
   for (size_t i = 0; i < outline.size(); ++i) {
-    const Point a = outline[i], b = outline[(i + 1) % outline.size()];
+    const GridPoint a = outline[i], b = outline[(i + 1) % outline.size()];
     for (int axis = 0; axis < 3; ++axis) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
       sum[axis] += int64_t{a[u]} * b[v] - int64_t{b[u]} * a[v];
@@ -46,7 +46,7 @@ std::vector<Point2> project(const Outline& outline) {
   int u = (axis + 1) % 3, v = (axis + 2) % 3;
   if (normal[axis] < 0) std::swap(u, v);
   std::vector<Point2> projected;
-  for (const Point& p : outline) projected.push_back({p[u], p[v]});
+  for (const GridPoint& p : outline) projected.push_back({p[u], p[v]});
   return projected;
 }
 
@@ -68,14 +68,14 @@ bool is_ear(const std::vector<Point2>& points, const std::vector<int>& ring, siz
 // Corners of a polyhedron by the axis-parallel line they lie on, to find those inside an edge.
 class LineIndex {
  public:
-  void add(Point p) {
+  void add(GridPoint p) {
     for (int axis = 0; axis < 3; ++axis) lines_[line(p, axis)].insert(p[axis]);
   }
   // The outline with every corner that lies inside one of its axis-parallel edges.
   Outline with_corners_inside_edges(const Outline& outline) const {
     Outline full;
     for (size_t i = 0; i < outline.size(); ++i) {
-      const Point a = outline[i], b = outline[(i + 1) % outline.size()];
+      const GridPoint a = outline[i], b = outline[(i + 1) % outline.size()];
       full.push_back(a);
       const int axis = common_axis(a, b);
       if (axis < 0) continue;
@@ -94,7 +94,7 @@ class LineIndex {
 
  private:
   // The axis along which a and b differ, -1 if there is more than one.
-  static int common_axis(Point a, Point b) {
+  static int common_axis(GridPoint a, GridPoint b) {
     int found = -1;
     for (int axis = 0; axis < 3; ++axis) {
       if (a[axis] == b[axis]) continue;
@@ -103,14 +103,16 @@ class LineIndex {
     }
     return found;
   }
-  static GridKey line(Point p, int axis) { return {axis, p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+  static GridKey line(GridPoint p, int axis) {
+    return {axis, p[(axis + 1) % 3], p[(axis + 2) % 3]};
+  }
 
   std::map<GridKey, std::set<int32_t>> lines_;
 };
 
 }  // namespace
 
-Outline rectangle(int axis, int32_t at, Point low, Point high, bool positive) {
+Outline rectangle(int axis, int32_t at, GridPoint low, GridPoint high, bool positive) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   Outline outline;
   for (const auto& [pu, pv] : {std::pair{low[u], low[v]}, std::pair{high[u], low[v]},
@@ -136,9 +138,9 @@ void Polyhedron::add_face(Outline outline, int32_t material) {
 void Polyhedron::add_to(Scene& scene) const {
   LineIndex lines;
   for (const Face& face : faces_)
-    for (const Point& p : face.outline) lines.add(p);
+    for (const GridPoint& p : face.outline) lines.add(p);
   std::map<GridKey, int32_t> vertex_of;
-  const auto vertex = [&](Point p) {
+  const auto vertex = [&](GridPoint p) {
     const auto [found, is_new] = vertex_of.try_emplace(key(p), 0);
     if (is_new) found->second = scene.add_vertex(metres(p));
     return found->second;
@@ -165,7 +167,7 @@ Polyhedron extrusion(const Profile& profile, int axis, int32_t low, int32_t high
     return facing(std::move(outline), axis, true);
   };
   const auto placed = [&](Outline outline) {
-    for (Point& p : outline) p = place(p);
+    for (GridPoint& p : outline) p = place(p);
     return outline;
   };
   const Outline bottom = outline_at(low), top = outline_at(high);

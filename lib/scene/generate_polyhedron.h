@@ -11,11 +11,11 @@
 
 namespace hrad {
 
-using Outline = std::vector<Point>;
+using Outline = std::vector<GridPoint>;
 
 // The rectangle at `at` on the axis; low and high bound the two other axes (their coordinate on the
 // axis is ignored). Its front faces towards the positive or the negative end of the axis.
-Outline rectangle(int axis, int32_t at, Point low, Point high, bool positive);
+Outline rectangle(int axis, int32_t at, GridPoint low, GridPoint high, bool positive);
 
 // The outline, reversed if its front does not face that end of the axis.
 Outline facing(Outline outline, int axis, bool positive);

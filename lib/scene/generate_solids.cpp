@@ -10,7 +10,7 @@ namespace {
 constexpr int box_faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                  {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
-void add_box_faces(Scene& scene, Point low, Point high, const BoxMaterials& materials,
+void add_box_faces(Scene& scene, GridPoint low, GridPoint high, const BoxMaterials& materials,
                    bool inward) {
   std::array<int32_t, 8> corner;
   for (int i = 0; i < 8; ++i)
@@ -27,16 +27,16 @@ void add_box_faces(Scene& scene, Point low, Point high, const BoxMaterials& mate
 }  // namespace
 
 // A quotient, not a product with 0.001: the nearest double to the decimal fraction.
-Vec3 metres(Point p) { return {p.x / 1000.0, p.y / 1000.0, p.z / 1000.0}; }
+Vec3 metres(GridPoint p) { return {p.x / 1000.0, p.y / 1000.0, p.z / 1000.0}; }
 
-Point Place::operator()(Point local) const {
+GridPoint Place::operator()(GridPoint local) const {
   switch (quarter_turns) {
     case 1:
-      return origin + Point{-local.y, local.x, local.z};
+      return origin + GridPoint{-local.y, local.x, local.z};
     case 2:
-      return origin + Point{-local.x, -local.y, local.z};
+      return origin + GridPoint{-local.x, -local.y, local.z};
     case 3:
-      return origin + Point{local.y, -local.x, local.z};
+      return origin + GridPoint{local.y, -local.x, local.z};
     default:
       return origin + local;
   }
@@ -48,21 +48,21 @@ BoxMaterials all_faces(int32_t material) {
   return materials;
 }
 
-void add_box(Scene& scene, Point low, Point high, const BoxMaterials& materials) {
+void add_box(Scene& scene, GridPoint low, GridPoint high, const BoxMaterials& materials) {
   add_box_faces(scene, low, high, materials, false);
 }
 
-void add_box(Scene& scene, const Place& place, Point low, Point high, int32_t material) {
-  const Point a = place(low), b = place(high);
+void add_box(Scene& scene, const Place& place, GridPoint low, GridPoint high, int32_t material) {
+  const GridPoint a = place(low), b = place(high);
   add_box(scene, {std::min(a.x, b.x), std::min(a.y, b.y), a.z},
           {std::max(a.x, b.x), std::max(a.y, b.y), b.z}, all_faces(material));
 }
 
-void add_room(Scene& scene, Point low, Point high, const BoxMaterials& materials) {
+void add_room(Scene& scene, GridPoint low, GridPoint high, const BoxMaterials& materials) {
   add_box_faces(scene, low, high, materials, true);
 }
 
-void add_lamp(Scene& scene, Point low, Point high, int32_t housing, int32_t light) {
+void add_lamp(Scene& scene, GridPoint low, GridPoint high, int32_t housing, int32_t light) {
   BoxMaterials materials = all_faces(housing);
   materials[4] = light;
   add_box(scene, low, high, materials);

@@ -10,22 +10,22 @@
 namespace hrad {
 
 // In millimetres. Equal integers give equal coordinates, so that faces meant to touch do.
-struct Point {
+struct GridPoint {
   int32_t x = 0, y = 0, z = 0;
   int32_t operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
-inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline GridPoint operator+(GridPoint a, GridPoint b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
-Vec3 metres(Point p);
+Vec3 metres(GridPoint p);
 
 // Where a piece of furniture stands: turned about z by quarter turns (anticlockwise seen from
 // above), then moved to `origin`.
 struct Place {
-  Point origin;
+  GridPoint origin;
   int quarter_turns = 0;  // 0..3
-  Point operator()(Point local) const;
+  GridPoint operator()(GridPoint local) const;
   // The place of something that stands at `local` of this one.
-  Place at(Point local, int more_quarter_turns = 0) const {
+  Place at(GridPoint local, int more_quarter_turns = 0) const {
     return {(*this)(local), (quarter_turns + more_quarter_turns) % 4};
   }
 };
@@ -35,13 +35,13 @@ using BoxMaterials = std::array<int32_t, 6>;
 BoxMaterials all_faces(int32_t material);
 
 // 12 triangles with fronts outward.
-void add_box(Scene& scene, Point low, Point high, const BoxMaterials& materials);
-void add_box(Scene& scene, const Place& place, Point low, Point high, int32_t material);
+void add_box(Scene& scene, GridPoint low, GridPoint high, const BoxMaterials& materials);
+void add_box(Scene& scene, const Place& place, GridPoint low, GridPoint high, int32_t material);
 
 // 12 triangles with fronts inward: a closed room.
-void add_room(Scene& scene, Point low, Point high, const BoxMaterials& materials);
+void add_room(Scene& scene, GridPoint low, GridPoint high, const BoxMaterials& materials);
 
 // A closed box that shines through its bottom.
-void add_lamp(Scene& scene, Point low, Point high, int32_t housing, int32_t light);
+void add_lamp(Scene& scene, GridPoint low, GridPoint high, int32_t housing, int32_t light);
 
 }  // namespace hrad

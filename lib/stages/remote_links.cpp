@@ -1,23 +1,31 @@
 // The assignment. Floor 7 (stages).
 #include "stages/remote_links.h"
 
+#include <algorithm>
+
 namespace hrad {
 
-RemoteLinks::RemoteLinks(int owners, const std::vector<int32_t>& owner)
+RemoteLinks::RemoteLinks(int owners, const std::vector<uint64_t>& pairs)
     : owners_(static_cast<size_t>(owners)), by_(owners_ * owners_) {
-  // How many pairs face each other is not known before they are looked at: all of them count.
-  std::vector<double> surfaces(owners_, 0), links;
-  for (int32_t o : owner) surfaces[static_cast<size_t>(o)] += 1;
+  struct Between {
+    size_t a, b;
+    uint64_t links;
+  };
+  std::vector<uint64_t> links;
+  std::vector<Between> remote;
   for (size_t a = 0; a < owners_; ++a) {
-    links.push_back(surfaces[a] * surfaces[a] / 2);
+    links.push_back(pairs[a * owners_ + a]);
     by_[a * owners_ + a] = static_cast<int32_t>(a);
+    for (size_t b = a + 1; b < owners_; ++b)
+      remote.push_back({a, b, pairs[a * owners_ + b] + pairs[b * owners_ + a]});
   }
-  for (size_t a = 0; a < owners_; ++a)
-    for (size_t b = a + 1; b < owners_; ++b) {
-      const size_t by = links[b] < links[a] ? b : a;
-      links[by] += surfaces[a] * surfaces[b];
-      by_[a * owners_ + b] = by_[b * owners_ + a] = static_cast<int32_t>(by);
-    }
+  std::stable_sort(remote.begin(), remote.end(),
+                   [](const Between& x, const Between& y) { return x.links > y.links; });
+  for (const Between& r : remote) {
+    const size_t by = links[r.b] < links[r.a] ? r.b : r.a;
+    links[by] += r.links;
+    by_[r.a * owners_ + r.b] = by_[r.b * owners_ + r.a] = static_cast<int32_t>(by);
+  }
 }
 
 }  // namespace hrad

@@ -12,8 +12,10 @@ namespace hrad {
 
 class RemoteLinks {
  public:
-  // All links between two owners are assigned to the one with fewer so far. owner: per surface.
-  RemoteLinks(int owners, const std::vector<int32_t>& owner);
+  // All links between two owners are assigned to the one with fewer so far, the most first. pairs:
+  // of surfaces that face each other, counted for owners a and b at a * owners + b or the other way
+  // round.
+  RemoteLinks(int owners, const std::vector<uint64_t>& pairs);
 
   // Whoever computes the links between surfaces of these two, which may be the same.
   int32_t computed_by(int32_t a, int32_t b) const { return by_[a * owners_ + b]; }

@@ -34,10 +34,14 @@ void SubtreeRefiner::follow(Decision decision, int32_t at, Link link, const Elem
 // What would be too coarse even if all of it were seen needs no rays.
 bool SubtreeRefiner::refined_unseen(int32_t at, NodeId id, const Element& source,
                                     const LinkEstimate& estimate) {
-  if (!estimate.by_points || hand_on_) return false;
+  if (!estimate.by_points) return false;
   const Link whole{id, static_cast<float>(estimate.factor)};
   const Decision decision = judge(at, load_of(at, whole, source.area), source, estimate);
   if (decision == Decision::keep) return false;
+  if (hand_on_ && at > 0) {  // a later task's
+    result_.nodes[static_cast<size_t>(at)].meeting.push_back(id);
+    return true;
+  }
   LinkEstimate unseen = estimate;
   unseen.factor = 0;
   follow(decision, at, whole, source, unseen);

@@ -15,7 +15,9 @@ struct SubtreeNode {
   int32_t parent = -1;         // index into SubtreeResult::nodes
   int32_t first_child = -1;    // likewise
   std::vector<Link> run;       // its links after the round
-  std::vector<Link> arriving;  // for a child handed on: links that came down to it
+  // For a child handed on: links that came down to it, and sources that it is yet to meet.
+  std::vector<Link> arriving;
+  std::vector<NodeId> meeting;
 };
 
 struct SubtreeResult {

@@ -179,6 +179,29 @@ def heads_name_the_floor(tree):
     return offences
 
 
+def a_name_means_one_type(tree):
+    """No two types of one namespace have the same name, unless each is one file's own: a linker takes
+    the functions of either for both."""
+    defined, offences = {}, []
+    for path in tree.under("lib/", "cli/", suffixes=CODE):
+        inside = []
+        for number, line in enumerate(tree.text(path).splitlines(), 1):
+            opened = re.match(r"(?:inline )?namespace ?([\w:]*) ?\{$", line)
+            if opened:
+                inside.append(opened.group(1))
+            elif re.match(r"\}  // (?:inline )?namespace", line) and inside:
+                inside.pop()
+            made = re.match(r"(?:struct|class|enum(?: class)?) (?:alignas\(.*?\) )?(\w+)\b(?!::)[^;]*\{",
+                            line)
+            if not made or "" in inside:
+                continue
+            name = "::".join(inside + [made.group(1)])
+            if name in defined and defined[name] != path:
+                offences.append(Offence(path, number, "%s is a type of %s too" % (name, defined[name])))
+            defined.setdefault(name, path)
+    return offences
+
+
 _MARKS = r"\b(?:%s)\b" % "|".join(("TO" "DO", "FIX" "ME", "XX" "X", "HA" "CK"))
 _MACHINE_PATH = r"(?<![\w.$}~-])/(?:home|work|root|Users)/\w+"
 _TEMPORARY_PATH = r"(?<![\w.$}~-])/(?:var/)?tmp\b"
@@ -223,5 +246,5 @@ def public_functions_are_tested(tree):
 
 RULES = [includes_point_down, outside_sees_only_the_public_header,
          foreign_headers_stay_in_their_files, library_is_silent_and_harmless, no_transcendentals,
-         files_are_short, fortran_keeps_its_form, heads_name_the_floor, words_fit_the_tree,
-         public_functions_are_tested]
+         files_are_short, fortran_keeps_its_form, heads_name_the_floor, a_name_means_one_type,
+         words_fit_the_tree, public_functions_are_tested]
