@@ -1,0 +1,238 @@
+// The counterpart of the paper's Fig. 2c: the time of a solve on so many nodes with so many threads
+// each, projected from what one rank after the other was measured to do, and what stands in the way
+// of more. README.md in this folder tells how to run it and what the columns mean.
+#include <cstdio>
+#include <map>
+#include <thread>
+
+#include "bench/call_sites.h"
+#include "bench/hybrid_options.h"
+#include "bench/paper_table.h"
+#include "support/replay.h"
+
+using namespace bench;
+using namespace hrad_test;
+
+namespace {
+
+long long whole(int64_t value) { return static_cast<long long>(value); }
+
+bool counts(const std::string& stage) {
+  return stage == "linking" || stage == "refine" || stage == "sweep";
+}
+bool is_initial(const std::string& stage) { return stage == kInitial; }
+
+Solved solve(const std::string& scene, const Settings& settings, int ranks, int repeat) {
+  Solved solved = recorded_solve(scene, settings, ranks);
+  for (int turn = 1; turn < repeat; ++turn)
+    keep_the_least(solved.recording, recorded_solve(scene, settings, ranks).recording);
+  return solved;
+}
+
+struct Work {
+  double tasks = 0, stretches = 0;  // CPU seconds of all ranks together
+  double largest = 0;               // of a rank, in tasks
+  double longest = 0;               // of a task
+  double imbalance(size_t ranks) const {
+    return tasks > 0 ? largest * static_cast<double>(ranks) / tasks : 1;
+  }
+};
+
+Work work_of(const std::vector<Timeline>& ranks) {
+  Work work;
+  for (const Timeline& events : ranks) {
+    double own = 0;
+    for (const Event& event : events) {
+      work.stretches += event.seconds;
+      for (double seconds : event.tasks) {
+        own += seconds;
+        work.longest = std::max(work.longest, seconds);
+      }
+    }
+    work.tasks += own;
+    work.largest = std::max(work.largest, own);
+  }
+  return work;
+}
+
+void print_table(const std::string& scene, const std::map<int, Solved>& solved,
+                 const HybridOptions& o, const Settings& settings) {
+  const double one = replay(events_of(solved.at(1).recording, counts), Machine{}).seconds;
+  const double paper_one = paper_seconds(scene, 1, 1);
+  std::printf(
+      "| nodes | threads | s | speed-up | linking | refine | sweep | initial | paper s | paper "
+      "speed-up |%s\n|---|---|---|---|---|---|---|---|---|---|%s\n",
+      o.measure ? " measured wall s |" : "", o.measure ? "---|" : "");
+  for (int nodes : o.nodes) {
+    const Recording& recording = solved.at(nodes).recording;
+    const std::vector<Timeline> all = events_of(recording, counts);
+    const std::vector<Timeline> initial = events_of(recording, is_initial);
+    for (int threads : o.threads) {
+      Machine machine;
+      machine.threads = threads;
+      machine.wake = o.wake;
+      const Replayed r = replay(all, machine);
+      const auto stage = [&](const char* name) {
+        double seconds = 0;
+        for (const auto& [number, part] : r.of_stage)
+          if (recording.stages[static_cast<size_t>(number)] == name) seconds += part;
+        return seconds;
+      };
+      std::printf("| %d | %d | %.4f | %.2f | %.4f | %.4f | %.4f | %.4f |", nodes, threads,
+                  r.seconds, one / r.seconds, stage("linking"), stage("refine"), stage("sweep"),
+                  replay(initial, machine).seconds);
+      const double paper = paper_seconds(scene, nodes, threads);
+      if (paper > 0)
+        std::printf(" %.2f | %.2f |", paper, paper_one / paper);
+      else
+        std::printf(" | |");
+      const bool fits =
+          static_cast<unsigned>(nodes * threads) <= std::thread::hardware_concurrency();
+      if (o.measure && fits) {
+        double least = 1e300;
+        for (int turn = 0; turn < o.repeat; ++turn)
+          least = std::min(least, wall_of_solve(scene, settings, nodes, threads));
+        std::printf(" %.4f |", least);
+      } else if (o.measure) {
+        std::printf(" |");
+      }
+      std::printf("\n");
+    }
+  }
+}
+
+// The parts of the critical path that cost most beyond their share of work done evenly by all.
+void print_critical(const Recording& recording, int threads, const HybridOptions& o) {
+  const std::vector<Timeline> ranks = events_of(recording, counts);
+  Machine machine;
+  machine.threads = threads;
+  machine.wake = o.wake;
+  const Replayed replayed = replay(ranks, machine);
+  std::map<int32_t, double> work, longest;
+  std::map<int32_t, int64_t> loops, tasks;
+  for (const Timeline& events : ranks)
+    for (const Event& event : events) {
+      if (event.kind != Kind::loop) continue;
+      ++loops[event.site];
+      tasks[event.site] += static_cast<int64_t>(event.tasks.size());
+      for (double seconds : event.tasks) {
+        work[event.site] += seconds;
+        longest[event.site] = std::max(longest[event.site], seconds);
+      }
+    }
+  const double lanes = static_cast<double>(ranks.size()) * threads;
+  struct Row {
+    Part part;
+    double seconds, even;
+  };
+  std::vector<Row> rows;
+  double serial = 0, net = 0, excess = 0, even = 0;
+  for (const auto& [part, seconds] : replayed.critical) {
+    const double share = part.kind == Kind::loop ? work[part.from] / lanes : 0;
+    rows.push_back({part, seconds, share});
+    if (part.kind == Kind::serial)
+      serial += seconds;
+    else if (part.kind == Kind::loop)
+      excess += seconds - share, even += share;
+    else
+      net += seconds;
+  }
+  std::sort(rows.begin(), rows.end(),
+            [](const Row& a, const Row& b) { return a.seconds - a.even > b.seconds - b.even; });
+  const double all = replayed.seconds;
+  std::printf(
+      "critical path on %zu x %d: %.4f s = %.1f %% tasks shared evenly + %.1f %% uneven tasks + "
+      "%.1f %% stretches on one thread + %.1f %% network; %lld loops a rank\n",
+      ranks.size(), threads, all, 100 * even / all, 100 * excess / all, 100 * serial / all,
+      100 * net / all, [&] {
+        int64_t count = 0;
+        for (const auto& [site, number] : loops) count += number;
+        return whole(count / static_cast<int64_t>(ranks.size()));
+      }());
+  const CallSites sites(recording.sites);
+  std::printf("| lost s | %% | on the path s | what | where |\n|---|---|---|---|---|\n");
+  for (size_t k = 0; k < rows.size() && k < static_cast<size_t>(o.top); ++k) {
+    const Row& row = rows[k];
+    const int32_t site = row.part.from;
+    std::printf("| %.5f | %.1f | %.5f | ", row.seconds - row.even,
+                100 * (row.seconds - row.even) / all, row.seconds);
+    if (row.part.kind == Kind::loop)
+      std::printf("tasks: %lld in %lld loops a rank, longest %.2f ms | %s |\n",
+                  whole(tasks[site] / static_cast<int64_t>(ranks.size())),
+                  whole(loops[site] / static_cast<int64_t>(ranks.size())), 1e3 * longest[site],
+                  sites.name(site).c_str());
+    else if (row.part.kind == Kind::serial)
+      std::printf("one thread | %s |\n", sites.between(row.part.from, row.part.to).c_str());
+    else
+      std::printf("network | %s |\n", sites.name(site).c_str());
+  }
+}
+
+void print_balance(const char* partition, const Solved& solved, double tasks_of_one) {
+  const std::vector<Timeline> ranks = events_of(solved.recording, counts);
+  const Work work = work_of(ranks);
+  std::printf(
+      "partition %s on %zu: imbalance %.3f (largest over mean of tasks' CPU), tasks %.3f s (%.3f "
+      "of "
+      "one rank's), stretches %.3f s, longest task %.1f ms; own of each rank:",
+      partition, ranks.size(), work.imbalance(ranks.size()), work.tasks,
+      tasks_of_one > 0 ? work.tasks / tasks_of_one : 0, work.stretches, 1e3 * work.longest);
+  for (const Timeline& events : ranks) std::printf(" %.3f", work_of({events}).tasks);
+  std::printf("\n");
+}
+
+void print_counts(int ranks, const hrad::Stats& s) {
+  std::printf(
+      "%d ranks: %lld rays, %lld pairs, %lld links, %lld leaves; R %lld messages %lld bytes, U "
+      "%lld "
+      "%lld, T %lld %lld; links %.2f MB, nodes %.2f MB of the largest rank; %lld rounds, %lld "
+      "sweeps\n",
+      ranks, whole(s.rays), whole(s.pairs), whole(s.links), whole(s.leaves), whole(s.messages[0]),
+      whole(s.message_bytes[0]), whole(s.messages[1]), whole(s.message_bytes[1]),
+      whole(s.messages[2]), whole(s.message_bytes[2]), 1e-6 * static_cast<double>(s.link_bytes),
+      1e-6 * static_cast<double>(s.node_bytes), whole(s.rounds), whole(s.iterations));
+}
+
+void project(const std::string& scene, const std::string& linking, const HybridOptions& o) {
+  const Settings settings = settings_of(scene, linking, o);
+  std::printf("\n## %s, %s", scene.c_str(), linking.c_str());
+  for (const auto& [name, value] : settings) std::printf(", %s=%s", name.c_str(), value.c_str());
+  std::printf("\n\n");
+  std::map<int, Solved> solved;
+  for (int nodes : o.nodes) solved[nodes] = solve(scene, settings, nodes, o.repeat);
+  print_table(scene, solved, o, settings);
+  std::printf("\n");
+  const int most = solved.rbegin()->first;
+  const Work one = work_of(events_of(solved.at(1).recording, counts));
+  print_counts(1, solved.at(1).stats);
+  if (most > 1) print_counts(most, solved.at(most).stats);
+  print_balance(o.partition.c_str(), solved.at(1), one.tasks);
+  if (most > 1) print_balance(o.partition.c_str(), solved.at(most), one.tasks);
+  if (most > 1 && o.other_partition) {
+    const std::string other = o.partition == "grid" ? "cost" : "grid";
+    Settings others = settings;
+    others.emplace_back("partition", other);
+    print_balance(other.c_str(), solve(scene, others, most, 1), one.tasks);
+  }
+  const int threads = std::min(8, *std::max_element(o.threads.begin(), o.threads.end()));
+  print_critical(solved.at(1).recording, threads, o);
+  if (most > 1) print_critical(solved.at(most).recording, threads, o);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const HybridOptions o = hybrid_options_in({argv + 1, argv + argc});
+    for (const std::string& scene : o.scenes)
+      for (const std::string& linking : o.linkings) project(scene, linking, o);
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "bench_hybrid: %s\n%s", error.what(), kHybridUsage);
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_hybrid: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
