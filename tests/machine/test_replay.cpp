@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "machine/comm.h"
 #include "machine/thread_team.h"
 #include "support/check.h"
 #include "support/recorder.h"
