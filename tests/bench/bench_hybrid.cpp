@@ -101,70 +101,100 @@ void print_table(const std::string& scene, const std::map<int, Solved>& solved,
   }
 }
 
-// The parts of the critical path that cost most beyond their share of work done evenly by all.
+// CPU seconds, number and longest of the tasks at one place.
+struct Loops {
+  double seconds = 0, longest = 0;
+  int64_t loops = 0, tasks = 0;
+};
+
+std::map<std::string, Loops> loops_of(const std::vector<Timeline>& ranks, const CallSites& sites) {
+  std::map<std::string, Loops> all;
+  for (const Timeline& events : ranks)
+    for (const Event& event : events) {
+      if (event.kind != Kind::loop) continue;
+      Loops& loops = all[sites.name(event.site)];
+      ++loops.loops;
+      loops.tasks += static_cast<int64_t>(event.tasks.size());
+      for (double seconds : event.tasks) {
+        loops.seconds += seconds;
+        loops.longest = std::max(loops.longest, seconds);
+      }
+    }
+  return all;
+}
+
+// Where the work is, and where ranks together do more of it than one alone.
+void print_loops(const Recording& one, const Recording& many, const HybridOptions& o) {
+  const auto alone = loops_of(events_of(one, counts), CallSites(one.sites));
+  const auto together = loops_of(events_of(many, counts), CallSites(many.sites));
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [name, loops] : together) order.emplace_back(-loops.seconds, name);
+  std::sort(order.begin(), order.end());
+  const int64_t ranks = static_cast<int64_t>(many.ranks.size());
+  std::printf(
+      "| tasks of one rank, s | of all %lld | loops | tasks | of a rank | longest ms | where |\n"
+      "|---|---|---|---|---|---|---|\n",
+      whole(ranks));
+  for (size_t k = 0; k < order.size() && k < static_cast<size_t>(o.top); ++k) {
+    const std::string& name = order[k].second;
+    const Loops& all = together.at(name);
+    const auto at = alone.find(name);
+    const Loops own = at == alone.end() ? Loops{} : at->second;
+    std::printf("| %.4f | %.4f | %lld | %lld | %lld | %.2f | %s |\n", own.seconds, all.seconds,
+                whole(own.loops), whole(own.tasks), whole(all.tasks / ranks), 1e3 * all.longest,
+                name.c_str());
+  }
+}
+
+// The parts of the critical path that cost most beyond an even share of their work.
 void print_critical(const Recording& recording, int threads, const HybridOptions& o) {
   const std::vector<Timeline> ranks = events_of(recording, counts);
   Machine machine;
   machine.threads = threads;
   machine.wake = o.wake;
   const Replayed replayed = replay(ranks, machine);
-  std::map<int32_t, double> work, longest;
-  std::map<int32_t, int64_t> loops, tasks;
-  for (const Timeline& events : ranks)
-    for (const Event& event : events) {
-      if (event.kind != Kind::loop) continue;
-      ++loops[event.site];
-      tasks[event.site] += static_cast<int64_t>(event.tasks.size());
-      for (double seconds : event.tasks) {
-        work[event.site] += seconds;
-        longest[event.site] = std::max(longest[event.site], seconds);
-      }
-    }
+  const CallSites sites(recording.sites);
   const double lanes = static_cast<double>(ranks.size()) * threads;
   struct Row {
-    Part part;
-    double seconds, even;
+    const char* what;
+    double seconds = 0, even = 0;
   };
-  std::vector<Row> rows;
-  double serial = 0, net = 0, excess = 0, even = 0;
+  std::map<std::string, Row> rows;
+  double serial = 0, network = 0, even = 0;
   for (const auto& [part, seconds] : replayed.critical) {
-    const double share = part.kind == Kind::loop ? work[part.from] / lanes : 0;
-    rows.push_back({part, seconds, share});
-    if (part.kind == Kind::serial)
-      serial += seconds;
-    else if (part.kind == Kind::loop)
-      excess += seconds - share, even += share;
-    else
-      net += seconds;
+    const bool is_serial = part.kind == Kind::serial, is_loop = part.kind == Kind::loop;
+    const std::string where = is_serial ? sites.between(part.from, part.to) : sites.name(part.from);
+    Row& row = rows[(is_serial ? "1" : is_loop ? "2" : "3") + where];
+    row.what = is_serial ? "one thread" : is_loop ? "tasks" : "network";
+    row.seconds += seconds;
+    serial += is_serial ? seconds : 0;
+    network += is_serial || is_loop ? 0 : seconds;
   }
-  std::sort(rows.begin(), rows.end(),
-            [](const Row& a, const Row& b) { return a.seconds - a.even > b.seconds - b.even; });
+  int64_t count = 0, tasks = 0;
+  for (const auto& [name, loops] : loops_of(ranks, sites)) {
+    count += loops.loops;
+    tasks += loops.tasks;
+    const double share = loops.seconds / lanes;
+    even += share;
+    const auto at = rows.find("2" + name);
+    if (at != rows.end()) at->second.even = share;
+  }
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [name, row] : rows) order.emplace_back(row.even - row.seconds, name);
+  std::sort(order.begin(), order.end());
   const double all = replayed.seconds;
   std::printf(
       "critical path on %zu x %d: %.4f s = %.1f %% tasks shared evenly + %.1f %% uneven tasks + "
-      "%.1f %% stretches on one thread + %.1f %% network; %lld loops a rank\n",
-      ranks.size(), threads, all, 100 * even / all, 100 * excess / all, 100 * serial / all,
-      100 * net / all, [&] {
-        int64_t count = 0;
-        for (const auto& [site, number] : loops) count += number;
-        return whole(count / static_cast<int64_t>(ranks.size()));
-      }());
-  const CallSites sites(recording.sites);
+      "%.1f %% stretches on one thread + %.1f %% network; %lld loops of %lld tasks a rank\n",
+      ranks.size(), threads, all, 100 * even / all, 100 * (all - even - serial - network) / all,
+      100 * serial / all, 100 * network / all, whole(count / static_cast<int64_t>(ranks.size())),
+      whole(count > 0 ? tasks / count : 0));
   std::printf("| lost s | %% | on the path s | what | where |\n|---|---|---|---|---|\n");
-  for (size_t k = 0; k < rows.size() && k < static_cast<size_t>(o.top); ++k) {
-    const Row& row = rows[k];
-    const int32_t site = row.part.from;
-    std::printf("| %.5f | %.1f | %.5f | ", row.seconds - row.even,
-                100 * (row.seconds - row.even) / all, row.seconds);
-    if (row.part.kind == Kind::loop)
-      std::printf("tasks: %lld in %lld loops a rank, longest %.2f ms | %s |\n",
-                  whole(tasks[site] / static_cast<int64_t>(ranks.size())),
-                  whole(loops[site] / static_cast<int64_t>(ranks.size())), 1e3 * longest[site],
-                  sites.name(site).c_str());
-    else if (row.part.kind == Kind::serial)
-      std::printf("one thread | %s |\n", sites.between(row.part.from, row.part.to).c_str());
-    else
-      std::printf("network | %s |\n", sites.name(site).c_str());
+  for (size_t k = 0; k < order.size() && k < static_cast<size_t>(o.top); ++k) {
+    const Row& row = rows.at(order[k].second);
+    std::printf("| %.5f | %.1f | %.5f | %s | %s |\n", row.seconds - row.even,
+                100 * (row.seconds - row.even) / all, row.seconds, row.what,
+                order[k].second.substr(1).c_str());
   }
 }
 
@@ -214,6 +244,7 @@ void project(const std::string& scene, const std::string& linking, const HybridO
     others.emplace_back("partition", other);
     print_balance(other.c_str(), solve(scene, others, most, 1), one.tasks);
   }
+  print_loops(solved.at(1).recording, solved.at(most).recording, o);
   const int threads = std::min(8, *std::max_element(o.threads.begin(), o.threads.end()));
   print_critical(solved.at(1).recording, threads, o);
   if (most > 1) print_critical(solved.at(most).recording, threads, o);

@@ -95,12 +95,14 @@ class CallSites {
                            .c_str(),
                        "r");
     if (!pipe) return;
-    std::vector<std::string> lines;
-    char line[4096];
-    while (std::fgets(line, sizeof line, pipe)) {
-      line[std::strcspn(line, "\n")] = '\0';
-      lines.push_back(line);
+    std::vector<std::string> lines(1);
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
+      if (c == '\n')
+        lines.emplace_back();
+      else
+        lines.back() += static_cast<char>(c);
     }
+    lines.pop_back();
     pclose(pipe);
     for (size_t k = 0; k < lines.size();) {
       if (lines[k].compare(0, 2, "0x") == 0) {

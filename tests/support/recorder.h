@@ -105,7 +105,7 @@ class Recorder final : public hrad::WorkObserver {
     Event event;
     event.kind = kind;
     event.stage = stage_;
-    event.site = all_.recording.site_number({stack, stack + depth});
+    event.site = all_.recording.site_number(std::vector<void*>(stack, stack + depth));
     events_.push_back(std::move(event));
     return events_.back();
   }
