@@ -105,18 +105,25 @@ void print_table(const std::string& scene, const std::map<int, Solved>& solved,
 struct Loops {
   double seconds = 0, longest = 0;
   int64_t loops = 0, tasks = 0;
+  std::map<size_t, double> of_rank;
+  double imbalance(size_t ranks) const {
+    double largest = 0;
+    for (const auto& [rank, own] : of_rank) largest = std::max(largest, own);
+    return seconds > 0 ? largest * static_cast<double>(ranks) / seconds : 1;
+  }
 };
 
 std::map<std::string, Loops> loops_of(const std::vector<Timeline>& ranks, const CallSites& sites) {
   std::map<std::string, Loops> all;
-  for (const Timeline& events : ranks)
-    for (const Event& event : events) {
+  for (size_t rank = 0; rank < ranks.size(); ++rank)
+    for (const Event& event : ranks[rank]) {
       if (event.kind != Kind::loop) continue;
       Loops& loops = all[sites.name(event.site)];
       ++loops.loops;
       loops.tasks += static_cast<int64_t>(event.tasks.size());
       for (double seconds : event.tasks) {
         loops.seconds += seconds;
+        loops.of_rank[rank] += seconds;
         loops.longest = std::max(loops.longest, seconds);
       }
     }
@@ -132,17 +139,18 @@ void print_loops(const Recording& one, const Recording& many, const HybridOption
   std::sort(order.begin(), order.end());
   const int64_t ranks = static_cast<int64_t>(many.ranks.size());
   std::printf(
-      "| tasks of one rank, s | of all %lld | loops | tasks | of a rank | longest ms | where |\n"
-      "|---|---|---|---|---|---|---|\n",
+      "| tasks of one rank, s | of all %lld | imbalance | loops | tasks | of a rank | longest ms | "
+      "where |\n"
+      "|---|---|---|---|---|---|---|---|\n",
       whole(ranks));
   for (size_t k = 0; k < order.size() && k < static_cast<size_t>(o.top); ++k) {
     const std::string& name = order[k].second;
     const Loops& all = together.at(name);
     const auto at = alone.find(name);
     const Loops own = at == alone.end() ? Loops{} : at->second;
-    std::printf("| %.4f | %.4f | %lld | %lld | %lld | %.2f | %s |\n", own.seconds, all.seconds,
-                whole(own.loops), whole(own.tasks), whole(all.tasks / ranks), 1e3 * all.longest,
-                name.c_str());
+    std::printf("| %.4f | %.4f | %.2f | %lld | %lld | %lld | %.2f | %s |\n", own.seconds,
+                all.seconds, all.imbalance(many.ranks.size()), whole(own.loops), whole(own.tasks),
+                whole(all.tasks / ranks), 1e3 * all.longest, name.c_str());
   }
 }
 
@@ -189,6 +197,9 @@ void print_critical(const Recording& recording, int threads, const HybridOptions
       ranks.size(), threads, all, 100 * even / all, 100 * (all - even - serial - network) / all,
       100 * serial / all, 100 * network / all, whole(count / static_cast<int64_t>(ranks.size())),
       whole(count > 0 ? tasks / count : 0));
+  machine.cut_at_will = true;
+  std::printf("with tasks cut at will %.4f s, with ranks evenly loaded too %.4f s\n",
+              replay(ranks, machine).seconds, even + serial + network);
   std::printf("| lost s | %% | on the path s | what | where |\n|---|---|---|---|---|\n");
   for (size_t k = 0; k < order.size() && k < static_cast<size_t>(o.top); ++k) {
     const Row& row = rows.at(order[k].second);

@@ -53,6 +53,7 @@ void first_free_thread_takes_the_next_task() {
   CHECK_NEAR(loop_seconds({3, 1, 1, 1}, 2), 3, 0);
   CHECK_NEAR(loop_seconds({1, 1, 1, 3}, 2), 4, 0);  // a large task late holds all up
   CHECK_NEAR(loop_seconds({1, 2}, 16), 2, 0);
+  CHECK_NEAR(loop_seconds({1, 1, 1, 3}, 2, true), 3, 0);
 }
 
 void one_rank_waits_for_nobody() {

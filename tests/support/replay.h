@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <queue>
 #include <stdexcept>
 #include <tuple>
@@ -21,6 +22,7 @@ struct Machine {
   double latency = 2e-6;     // seconds of a message
   double bandwidth = 1.6e9;  // bytes per second, into a node and out of it
   double wake = 0;           // seconds until sleeping threads have entered a loop
+  bool cut_at_will = false;  // tasks are as small as one likes
 };
 
 // What a part of the critical path is spent on: a loop or an exchange at one site, or the stretch
@@ -40,7 +42,9 @@ struct Replayed {
 };
 
 // Seconds until the last of the tasks is done.
-inline double loop_seconds(const std::vector<double>& tasks, int threads) {
+inline double loop_seconds(const std::vector<double>& tasks, int threads,
+                           bool cut_at_will = false) {
+  if (cut_at_will) return std::accumulate(tasks.begin(), tasks.end(), 0.0) / threads;
   std::priority_queue<double, std::vector<double>, std::greater<double>> free;
   for (int k = 0; k < threads; ++k) free.push(0);
   double last = 0;
@@ -108,7 +112,8 @@ class Replay {
         const bool shared = machine_.threads > 1 && event.tasks.size() > 1;
         site_[rank] = event.site;
         spend(rank, event, {Kind::loop, event.site, event.site},
-              loop_seconds(event.tasks, machine_.threads) + (shared ? machine_.wake : 0));
+              loop_seconds(event.tasks, machine_.threads, machine_.cut_at_will) +
+                  (shared ? machine_.wake : 0));
       } else {
         return;
       }
