@@ -152,11 +152,15 @@ class CallSites {
   // What every recording goes through.
   static bool is_plumbing(const Frame& frame) {
     if (frame.place.compare(0, 2, "??") == 0 && frame.function == "??") return true;
-    for (const char* start :
-         {"hrad_test::", "bench::", "hrad::Comm::", "hrad::ThreadTeam::", "std::", "__",
-          "hrad::share", "hrad::unite", "hrad::Exchange::share", "hrad::Exchange::unite",
-          "hrad::Exchange::all_go_on", "exchanging", "hrad::api::", "operator()", "clone"})
+    for (const char* start : {"hrad_test::", "bench::", "hrad::Comm::", "hrad::ThreadTeam::",
+                              "hrad::api::", "std::", "__", "exchanging", "operator()", "clone"})
       if (frame.function.compare(0, std::strlen(start), start) == 0) return true;
+    for (const char* name :
+         {"hrad::share", "hrad::share_values", "hrad::share_lists", "hrad::share_turns",
+          "hrad::unite", "hrad::Exchange::share", "hrad::Exchange::share_lists",
+          "hrad::Exchange::share_rows", "hrad::Exchange::share_turns", "hrad::Exchange::unite",
+          "hrad::Exchange::all_go_on"})
+      if (frame.function == name) return true;
     for (const char* place :
          {"recorder.h", "thread_team.cpp", "sharing.h", "comm.cpp", "exchange.h", "std_function.h",
           "invoke.h", "recorded_solve.h", "bench_hybrid.cpp"})
