@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "machine/work_observer.h"
 #if defined(__linux__)
 #include <pthread.h>
 #include <sched.h>
@@ -206,6 +207,22 @@ int ThreadTeam::size() const { return static_cast<int>(state_->threads.size()) +
 
 bool ThreadTeam::for_each(int64_t count, const std::function<void(int64_t task, int worker)>& body,
                           const std::function<bool(int64_t done)>& between) {
+  WorkObserver* const observer = work_observer();
+  if (!observer) return run(count, body, between);
+  observer->loop_begins(count);
+  const bool going_on = run(
+      count,
+      [&](int64_t task, int worker) {
+        body(task, worker);
+        observer->task_ends(task, worker);
+      },
+      between);
+  observer->loop_ends();
+  return going_on;
+}
+
+bool ThreadTeam::run(int64_t count, const std::function<void(int64_t task, int worker)>& body,
+                     const std::function<bool(int64_t done)>& between) {
   if (state_->busy.exchange(true))
     fail(Status::internal, "a loop was started on a thread team that is running one");
   Loop loop(count, body);

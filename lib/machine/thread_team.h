@@ -26,11 +26,14 @@ class ThreadTeam {
   // finished tasks; when it returns false, no further task is started and for_each returns false
   // (tasks under way are finished). When bodies throw, no further task is started and the exception
   // of the lowest task that throws is thrown here, the same one on any number of threads. Not
-  // reentrant.
+  // reentrant. The calling thread's WorkObserver is told.
   bool for_each(int64_t count, const std::function<void(int64_t task, int worker)>& body,
                 const std::function<bool(int64_t done)>& between = {});
 
  private:
+  bool run(int64_t count, const std::function<void(int64_t task, int worker)>& body,
+           const std::function<bool(int64_t done)>& between);
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -7,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "machine/work_observer.h"
 #include "solver/solver.h"
 
 namespace hrad {
@@ -18,6 +19,7 @@ class ProgressClock {
   // From here on `name` is under way, from `first` to `last` of the whole.
   void begin(const char* name, double first, double last) {
     name_ = name;
+    if (WorkObserver* observer = work_observer()) observer->stage_begins(name);
     first_ = first;
     last_ = last;
   }

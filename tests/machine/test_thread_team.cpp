@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "machine/thread_team.h"
+#include "machine/work_observer.h"
 #include "support/check.h"
 #include "support/sanitized.h"
 
@@ -247,6 +248,40 @@ void teams_are_independent() {
   CHECK_EQUAL(sum.load(), int64_t{45});
 }
 
+// The observer of the calling thread is told of its loops and of every task, and of no others'.
+void an_observer_is_told() {
+  struct Observer : hrad::WorkObserver {
+    std::vector<int64_t> loops;
+    std::atomic<int64_t> tasks{0}, sum{0};
+    int ends = 0;
+    void stage_begins(const char*) override {}
+    void loop_begins(int64_t count) override { loops.push_back(count); }
+    void task_ends(int64_t task, int worker) override {
+      ++tasks;
+      sum += task;
+      if (worker < 0 || worker >= 4) sum += 1000000;
+    }
+    void loop_ends() override { ++ends; }
+  };
+  for (int size : {1, 4}) {
+    Observer observer;
+    ThreadTeam team(size);
+    const auto nothing = [](int64_t, int) {};
+    hrad::work_observer() = &observer;
+    team.for_each(100, nothing);
+    std::thread([&] {
+      ThreadTeam other(size);
+      other.for_each(3, nothing);
+    }).join();
+    hrad::work_observer() = nullptr;
+    team.for_each(7, nothing);
+    CHECK((observer.loops == std::vector<int64_t>{100}));
+    CHECK_EQUAL(observer.ends, 1);
+    CHECK_EQUAL(observer.tasks.load(), 100);
+    CHECK_EQUAL(observer.sum.load(), 4950);
+  }
+}
+
 // Binding to what exists, to nothing, to what doesn't exist: the work is done all the same.
 void binding_is_harmless() {
   const std::vector<std::vector<std::vector<int>>> bindings = {
@@ -310,6 +345,7 @@ int main() {
       HRAD_TEST(not_reentrant),
       HRAD_TEST(repeated_use),
       HRAD_TEST(teams_are_independent),
+      HRAD_TEST(an_observer_is_told),
       HRAD_TEST(binding_is_harmless),
       HRAD_TEST(too_many_threads),
       HRAD_TEST(bad_size),
