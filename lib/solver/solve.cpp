@@ -11,6 +11,7 @@
 #include "solver/solution.h"
 #include "stages/gather.h"
 #include "stages/linking.h"
+#include "stages/rebalance.h"
 #include "stages/refine.h"
 #include "stages/rows.h"
 #include "stages/state_memory.h"
@@ -212,8 +213,11 @@ class Solver::Run {
     const double whole = share_of_rounds(number) - share_of_rounds(number - 1);
     clock_.begin("refine", from, from + 0.95 * whole);
     const auto start = std::chrono::steady_clock::now();
+    // The last round tells best what surfaces cost; before the first one there are their links.
+    if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
+    if (rebalance(state_, exchange_, work_)) solver_.note_owners();
     const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
-    const bool done = refine_links(state_, tools(number), brightness);
+    const bool done = refine_links(state_, tools(number), brightness, &work_);
     solver_.stats_.seconds_iterative +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!done) return false;
@@ -288,6 +292,7 @@ class Solver::Run {
   const Params& params_;
   const bool by_rows_;
   Exchange& exchange_;
+  std::vector<double> work_;  // of each own surface in the last round
   ProgressClock clock_;
 };
 

@@ -115,6 +115,13 @@ void Solver::deal_out(Solution& solution) const {
   solution.exchange = std::make_unique<Exchange>(*comm_, std::move(of_surface));
 }
 
+void Solver::note_owners() {
+  const std::vector<Surface>& surfaces = solution_->state.forest.surfaces;
+  for (size_t k = 0; k < surfaces.size(); ++k)
+    solution_->owners[static_cast<size_t>(surfaces[k].patch)] =
+        solution_->exchange->owner(static_cast<int32_t>(k));
+}
+
 int32_t Solver::patch_owner(int64_t patch) const {
   if (!solution_) fail(Status::state, "no patch has an owner yet: call hrad_partition first");
   if (patch < 0 || patch >= scene_.patch_count())

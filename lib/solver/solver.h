@@ -118,6 +118,7 @@ class Solver {
   class Run;
   void warn_of_crowd(const struct Topology& topology, const struct PoolPlan& plan) const;
   void deal_out(Solution& solution) const;
+  void note_owners();  // after a rebalance
   void require_solved() const;
   void measure_if_due() const;
   Stats counts() const;  // stats() with what has been measured already

@@ -3,6 +3,7 @@
 // receiver. With one owner of everything nothing is exchanged. Floor 7 (stages).
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "machine/sharing.h"
@@ -76,6 +77,11 @@ class Exchange {
   void share_light(State& state) const;
   // The hierarchy has gone back to the roots: nothing is asked for any more.
   void forget();
+  // Other owners of the surfaces from now on, to be asked anew.
+  void deal_out(std::vector<int32_t> owner_of_surface) {
+    owner_ = std::move(owner_of_surface);
+    forget();
+  }
 
   const MessageCounts& counts() const { return counts_; }
   Comm& comm() const { return comm_; }
@@ -85,7 +91,7 @@ class Exchange {
   void count(int kind, const std::vector<Bytes>& sent);
 
   Comm& comm_;
-  const std::vector<int32_t> owner_;
+  std::vector<int32_t> owner_;
   std::vector<uint8_t> asked_;                 // per node
   std::vector<std::vector<NodeId>> asked_of_;  // per rank, in the order of asking
   std::vector<std::vector<NodeId>> asked_by_;  // likewise

@@ -3,89 +3,70 @@
 #include "stages/new_elements.h"
 
 #include <algorithm>
-#include <utility>
+#include <cstddef>
 
 namespace hrad {
 
-void share_elements(std::vector<SubtreeResult>& results, const std::vector<NodeId>& roots,
-                    const State& state, const Exchange& exchange) {
-  if (exchange.alone()) return;
-  struct Made {
-    Node place;
-    NodeId old_id;
-    int32_t parent, first_child;
-  };
-  const auto surface_of = [&](size_t k) { return state.forest.nodes[roots[k]].surface; };
-  std::vector<uint8_t> handed_on;
-  std::vector<std::vector<Made>> made(results.size());
-  for (size_t k = 0; k < results.size(); ++k) {
-    handed_on.push_back(results[k].handed_on ? 1 : 0);
-    bool any = results[k].handed_on;
-    for (const SubtreeNode& node : results[k].nodes) any = any || node.old_id < 0;
-    if (!any) continue;
-    for (const SubtreeNode& node : results[k].nodes)
-      made[k].push_back({node.place, node.old_id, node.parent, node.first_child});
-  }
-  exchange.share(handed_on, surface_of);
-  exchange.share_lists(made, surface_of);
-  for (size_t k = 0; k < results.size(); ++k) {
-    if (exchange.mine(surface_of(k))) continue;
-    results[k].handed_on = handed_on[k] != 0;
-    for (const Made& from : made[k]) {
-      SubtreeNode node;
-      node.place = from.place;
-      node.old_id = from.old_id;
-      node.parent = from.parent;
-      node.first_child = from.first_child;
-      results[k].nodes.push_back(std::move(node));
+std::vector<NewFamily> new_families(const SubtreeResult& result) {
+  const std::vector<SubtreeNode>& nodes = result.nodes;
+  std::vector<NewFamily> families;
+  std::vector<int32_t> made;  // number of each new element
+  for (size_t at = 0; at < nodes.size(); ++at) {
+    if (nodes[at].old_id >= 0) {
+      made.push_back(-1);
+      continue;
     }
+    const int32_t number = static_cast<int32_t>(4 * families.size());
+    for (int32_t child = 0; child < 4; ++child) made.push_back(number + child);
+    const size_t parent = static_cast<size_t>(nodes[at].parent);
+    NewFamily family;
+    family.parent = nodes[parent].old_id >= 0 ? nodes[parent].old_id : -1 - made[parent];
+    for (size_t child = 0; child < 4; ++child)
+      family.exposed[child] = nodes[at + child].place.exposed;
+    families.push_back(family);
+    at += 3;  // brothers stand side by side
   }
+  return families;
 }
 
-std::vector<std::vector<NodeId>> add_elements(State& state,
-                                              const std::vector<SubtreeResult>& results,
-                                              ThreadTeam& team) {
+std::vector<NodeId> add_families(State& state, const std::vector<std::vector<NewFamily>>& families,
+                                 ThreadTeam& team) {
   constexpr int64_t tasks_of_a_step = 64;
   const size_t bands = static_cast<size_t>(state.bands);
   std::vector<Node>& nodes = state.forest.nodes;
-  std::vector<NodeId> first;  // new number of each task
+  std::vector<NodeId> first;
   size_t count = nodes.size();
-  for (const SubtreeResult& result : results) {
+  for (const std::vector<NewFamily>& of_task : families) {
     first.push_back(static_cast<NodeId>(count));
-    for (const SubtreeNode& node : result.nodes) count += node.old_id < 0;
+    count += 4 * of_task.size();
   }
   nodes.resize(count);
   state.radiosity.resize(count * bands);
   state.irradiance.resize(count * bands);
-  std::vector<std::vector<NodeId>> ids(results.size());
   const auto add = [&](size_t task) {
-    const std::vector<SubtreeNode>& made = results[task].nodes;
-    std::vector<NodeId>& id = ids[task];
     NodeId next = first[task];
-    for (const SubtreeNode& node : made) {
-      id.push_back(node.old_id >= 0 ? node.old_id : next++);
-      if (node.old_id >= 0) continue;
-      Node& place = nodes[static_cast<size_t>(id.back())];
-      place = node.place;
-      place.parent = id[static_cast<size_t>(node.parent)];
-      place.first_child = -1;
-      const size_t from = static_cast<size_t>(place.parent) * bands;
-      const size_t to = static_cast<size_t>(id.back()) * bands;
-      for (auto* light : {&state.radiosity, &state.irradiance})
-        std::copy_n(light->begin() + static_cast<std::ptrdiff_t>(from), bands,
-                    light->begin() + static_cast<std::ptrdiff_t>(to));
+    for (const NewFamily& family : families[task]) {
+      const NodeId parent = family.parent >= 0 ? family.parent : first[task] - 1 - family.parent;
+      for (int child = 0; child < 4; ++child) {
+        const size_t id = static_cast<size_t>(next + child);
+        nodes[id] = child_place(nodes[static_cast<size_t>(parent)], child);
+        nodes[id].parent = parent;
+        nodes[id].first_child = -1;
+        nodes[id].exposed = family.exposed[child];
+        for (auto* light : {&state.radiosity, &state.irradiance})
+          std::copy_n(light->begin() + static_cast<std::ptrdiff_t>(parent * bands), bands,
+                      light->begin() + static_cast<std::ptrdiff_t>(id * bands));
+      }
+      nodes[static_cast<size_t>(parent)].first_child = next;
+      next += 4;
     }
-    for (size_t k = 0; k < made.size(); ++k)
-      if (made[k].first_child >= 0)
-        nodes[static_cast<size_t>(id[k])].first_child =
-            id[static_cast<size_t>(made[k].first_child)];
   };
-  const int64_t tasks = static_cast<int64_t>(results.size());
+  const int64_t tasks = static_cast<int64_t>(families.size());
   team.for_each((tasks + tasks_of_a_step - 1) / tasks_of_a_step, [&](int64_t step, int) {
     for (int64_t k = step * tasks_of_a_step; k < std::min(tasks, (step + 1) * tasks_of_a_step); ++k)
       add(static_cast<size_t>(k));
   });
-  return ids;
+  return first;
 }
 
 }  // namespace hrad

@@ -9,15 +9,19 @@
 
 namespace hrad {
 
-// Collective. roots: of the tasks; of other owners' tasks the elements alone become known, links
-// stay with the owners of their receivers.
-void share_elements(std::vector<SubtreeResult>& results, const std::vector<NodeId>& roots,
-                    const State& state, const Exchange& exchange);
+// Elements are made four at a time: all that is to be known of them is whose children they are, and
+// how much of each is exposed.
+struct NewFamily {
+  NodeId parent;  // -1-k: new element k of the same task
+  float exposed[4];
+};
 
-// Gives new elements their numbers, and the light of their parents for the time being.
-// ids[task][k]: of the task's element k, old or new.
-std::vector<std::vector<NodeId>> add_elements(State& state,
-                                              const std::vector<SubtreeResult>& results,
-                                              ThreadTeam& team);
+// Those of one task, in the order of the children.
+std::vector<NewFamily> new_families(const SubtreeResult& result);
+
+// Gives new elements their numbers, task by task, and the light of their parents for the time
+// being. Returns the number of each task's first one.
+std::vector<NodeId> add_families(State& state, const std::vector<std::vector<NewFamily>>& families,
+                                 ThreadTeam& team);
 
 }  // namespace hrad

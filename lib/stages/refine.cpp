@@ -17,7 +17,7 @@ namespace {
 
 // A receiver subtree with more links than this is cut into its children's, so that no task holds up
 // the others.
-constexpr int64_t most_links_of_a_task = 1000;
+constexpr int64_t most_links_of_a_task = 200;
 
 struct Task {
   NodeId root;
@@ -53,10 +53,14 @@ class RefiningRound {
         exchange_(tools.exchange),
         brightness_(brightness),
         weight_(subtree_links(state)),
+        work_(state.forest.surfaces.size(), 0.0),
         memory_(state) {}
 
   // met: by the top of the clusters from outside. False: stopped, and nothing has changed.
   bool run(Span<const NodeId> met);
+
+  // Rays that each of this process's own surfaces took.
+  const std::vector<double>& work() const { return work_; }
 
  private:
   bool start(Span<const NodeId> met);
@@ -72,6 +76,7 @@ class RefiningRound {
   const Exchange& exchange_;
   const Brightness& brightness_;
   const std::vector<int64_t> weight_;  // of the nodes there were
+  std::vector<double> work_;           // rays of each surface
   StageMemory memory_;
   std::unique_ptr<EndPointsTable> points_;
   ClusterRound clusters_;
@@ -142,23 +147,36 @@ bool RefiningRound::pass() {
 }
 
 void RefiningRound::store(std::vector<SubtreeResult> results) {
-  std::vector<NodeId> roots;
-  for (const Task& task : tasks_) roots.push_back(task.root);
-  share_elements(results, roots, state_, exchange_);
-  const std::vector<std::vector<NodeId>> ids = add_elements(state_, results, tools_.team);
+  const auto surface_of = [&](size_t k) { return state_.forest.nodes[tasks_[k].root].surface; };
+  std::vector<std::vector<NewFamily>> families(results.size());
+  std::vector<uint8_t> handed_on(results.size());
+  tools_.team.for_each(static_cast<int64_t>(results.size()), [&](int64_t k, int) {
+    families[k] = new_families(results[k]);
+    handed_on[k] = results[k].handed_on;
+  });
+  exchange_.share_lists(families, surface_of);
+  exchange_.share(handed_on, surface_of);
+  const std::vector<NodeId> first = add_families(state_, families, tools_.team);
   state_.links.resize(state_.forest.nodes.size());
   std::vector<Task> next;
   for (size_t k = 0; k < results.size(); ++k) {
     SubtreeResult& result = results[k];
     state_.rays += result.rays;
-    const size_t kept = result.handed_on ? 1 : result.nodes.size();
-    if (mine(tasks_[k]))
-      for (size_t at = 0; at < kept; ++at) new_links_.push_back({ids[k][at], result.nodes[at].run});
-    if (!result.handed_on) continue;
-    for (int32_t child = 0; child < 4; ++child) {
-      SubtreeNode& node = result.nodes[static_cast<size_t>(result.nodes[0].first_child + child)];
-      next.push_back({ids[k][static_cast<size_t>(result.nodes[0].first_child + child)],
-                      std::move(node.arriving), std::move(node.meeting)});
+    work_[static_cast<size_t>(surface_of(k))] += static_cast<double>(result.rays);
+    const size_t kept = handed_on[k] ? 1 : result.nodes.size();
+    NodeId made = first[k];
+    for (size_t at = 0; at < kept && at < result.nodes.size(); ++at) {
+      const NodeId old = result.nodes[at].old_id;
+      new_links_.push_back({old >= 0 ? old : made++, result.nodes[at].run});
+    }
+    if (!handed_on[k]) continue;
+    const NodeId child = state_.forest.nodes[tasks_[k].root].first_child;
+    for (int32_t c = 0; c < 4; ++c) {
+      next.push_back({child + c, {}, {}});
+      if (result.nodes.empty()) continue;  // another's
+      SubtreeNode& node = result.nodes[static_cast<size_t>(result.nodes[0].first_child + c)];
+      next.back().arriving = std::move(node.arriving);
+      next.back().met = std::move(node.meeting);
     }
   }
   results_.push_back(std::move(results));
@@ -196,11 +214,16 @@ void RefiningRound::finish() {
 
 bool link_clusters(State& state, const StageTools& tools, const Brightness& brightness) {
   const NodeId top = state.forest.top();
-  return RefiningRound(state, tools, brightness).run({&top, 1});
+  RefiningRound round(state, tools, brightness);
+  return round.run({&top, 1});
 }
 
-bool refine_links(State& state, const StageTools& tools, const Brightness& brightness) {
-  return RefiningRound(state, tools, brightness).run({});
+bool refine_links(State& state, const StageTools& tools, const Brightness& brightness,
+                  std::vector<double>* work) {
+  RefiningRound round(state, tools, brightness);
+  if (!round.run({})) return false;
+  if (work) *work = round.work();
+  return true;
 }
 
 }  // namespace hrad

@@ -11,11 +11,13 @@ namespace hrad {
 // the frozen state of the round before, so no lock is needed and the result depends on no order.
 // Receivers with many links are cut into the subtrees of their children, which follow in a further
 // pass. New elements come after the old ones, in task order, with their parent's radiosity.
-// False: stopped by tools.progress; the state is as it was before.
+// False: stopped by tools.progress; the state is as it was before. work, if wanted: rays that each
+// surface of this process's own took.
+bool refine_links(State& state, const StageTools& tools, const Brightness& brightness,
+                  std::vector<double>* work = nullptr);
+
 // The first round of linking=clusters: from the link of all surfaces with themselves. The forest
 // has its clusters and no elements yet.
 bool link_clusters(State& state, const StageTools& tools, const Brightness& brightness);
-
-bool refine_links(State& state, const StageTools& tools, const Brightness& brightness);
 
 }  // namespace hrad

@@ -11,10 +11,10 @@ namespace hrad {
 // An element of the subtree as the task sees it: an old one, or one it has just made.
 struct SubtreeNode {
   Node place;
-  NodeId old_id = -1;          // -1: new
-  int32_t parent = -1;         // index into SubtreeResult::nodes
-  int32_t first_child = -1;    // likewise
-  std::vector<Link> run;       // its links after the round
+  NodeId old_id = -1;        // -1: new
+  int32_t parent = -1;       // index into SubtreeResult::nodes
+  int32_t first_child = -1;  // likewise
+  std::vector<Link> run;     // its links after the round
   // For a child handed on: links that came down to it, and sources that it is yet to meet.
   std::vector<Link> arriving;
   std::vector<NodeId> meeting;

@@ -1,0 +1,104 @@
+// When to move, and moving. Floor 7 (stages).
+#include "stages/rebalance.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "partition/partition.h"
+
+namespace hrad {
+namespace {
+
+// Of the largest share of the work; and the work of moving a link, in rays.
+constexpr double least_gain = 0.02, work_of_a_move = 0.1;
+
+double largest_load(const std::vector<double>& work, const std::vector<int32_t>& owners,
+                    int ranks) {
+  std::vector<double> load(static_cast<size_t>(ranks), 0.0);
+  for (size_t k = 0; k < work.size(); ++k) load[static_cast<size_t>(owners[k])] += work[k];
+  return *std::max_element(load.begin(), load.end());
+}
+
+std::vector<int32_t> owners_by(const State& state, const std::vector<double>& work, int ranks) {
+  const Scene& scene = *state.forest.scene;
+  const std::vector<Surface>& surfaces = state.forest.surfaces;
+  std::vector<double> of_patch(static_cast<size_t>(scene.patch_count()), 0.0);
+  for (size_t k = 0; k < work.size(); ++k)
+    of_patch[static_cast<size_t>(surfaces[k].patch)] += work[k];
+  const std::vector<PartitionItem> items = partition_items(scene, of_patch);
+  const std::vector<int32_t> owners =
+      owners_of(scene, items, partition_method("cost").divide(items, ranks));
+  std::vector<int32_t> of_surface;
+  for (const Surface& surface : surfaces)
+    of_surface.push_back(owners[static_cast<size_t>(surface.patch)]);
+  return of_surface;
+}
+
+// Runs of elements whose surface has another owner now.
+void move_links(State& state, Exchange& exchange, std::vector<int32_t> owners) {
+  Comm& comm = exchange.comm();
+  const std::vector<Node>& nodes = state.forest.nodes;
+  std::vector<Bytes> to(static_cast<size_t>(comm.size()));
+  std::vector<LinkTable::NewRun> runs;
+  for (size_t k = 0; k < nodes.size(); ++k) {
+    if (Forest::is_cluster(nodes[k]) || !exchange.mine(nodes[k].surface)) continue;
+    const int32_t next = owners[static_cast<size_t>(nodes[k].surface)];
+    if (next == comm.rank()) continue;
+    const Span<const Link> run = state.links[k].links();
+    const uint32_t size = static_cast<uint32_t>(run.size());
+    put(to[static_cast<size_t>(next)], &size, 1);
+    put(to[static_cast<size_t>(next)], run.data(), run.size());
+    if (size > 0) runs.push_back({static_cast<NodeId>(k), {}});
+  }
+  const std::vector<Bytes> from = comm.exchange(std::move(to));
+  std::vector<Taker> taken = takers(from);
+  std::vector<std::vector<Link>> arrived;
+  std::vector<NodeId> receivers;
+  for (size_t k = 0; k < nodes.size(); ++k) {
+    if (Forest::is_cluster(nodes[k]) || exchange.mine(nodes[k].surface)) continue;
+    if (owners[static_cast<size_t>(nodes[k].surface)] != comm.rank()) continue;
+    Taker& taker = taken[static_cast<size_t>(exchange.owner(nodes[k].surface))];
+    uint32_t size;
+    taker.take(&size, 1);
+    if (size == 0) continue;
+    arrived.emplace_back(size);
+    taker.take(arrived.back().data(), size);
+    receivers.push_back(static_cast<NodeId>(k));
+  }
+  for (size_t k = 0; k < receivers.size(); ++k) runs.push_back({receivers[k], arrived[k]});
+  state.links.replace(std::move(runs));
+  exchange.deal_out(std::move(owners));
+  exchange.ask_for_sources(state);
+}
+
+}  // namespace
+
+std::vector<double> links_of_surfaces(const State& state, const Exchange& exchange) {
+  std::vector<double> links(state.forest.surfaces.size(), 0.0);
+  for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
+    const Node& node = state.forest.nodes[k];
+    if (!Forest::is_cluster(node) && exchange.mine(node.surface))
+      links[static_cast<size_t>(node.surface)] += state.links[k].count();
+  }
+  return links;
+}
+
+bool rebalance(State& state, Exchange& exchange, std::vector<double> work) {
+  if (exchange.alone()) return false;
+  const int ranks = exchange.comm().size();
+  std::vector<double> links = links_of_surfaces(state, exchange);
+  const auto itself = [](size_t k) { return static_cast<int32_t>(k); };
+  exchange.share(work, itself);
+  exchange.share(links, itself);
+  std::vector<int32_t> owners = owners_by(state, work, ranks);
+  double moved = 0;
+  for (size_t k = 0; k < owners.size(); ++k)
+    if (owners[k] != exchange.owner(static_cast<int32_t>(k))) moved += links[k];
+  const double before = largest_load(work, exchange.owners(), ranks);
+  const double gain = before - largest_load(work, owners, ranks);
+  if (!(gain > least_gain * before && gain > work_of_a_move * moved / ranks)) return false;
+  move_links(state, exchange, std::move(owners));
+  return true;
+}
+
+}  // namespace hrad
