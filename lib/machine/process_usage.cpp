@@ -1,7 +1,8 @@
-// By getrusage(2). Floor 2 (machine).
+// By getrusage(2) and clock_gettime(2). Floor 2 (machine).
 #include "machine/process_usage.h"
 
 #include <sys/resource.h>
+#include <time.h>
 
 namespace hrad {
 namespace {
@@ -17,6 +18,12 @@ rusage usage_so_far() {
 double user_seconds() {
   const timeval time = usage_so_far().ru_utime;
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 int64_t peak_memory() { return static_cast<int64_t>(usage_so_far().ru_maxrss) * 1024; }

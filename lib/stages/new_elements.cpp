@@ -20,7 +20,9 @@ std::vector<NewFamily> new_families(const SubtreeResult& result) {
     for (int32_t child = 0; child < 4; ++child) made.push_back(number + child);
     const size_t parent = static_cast<size_t>(nodes[at].parent);
     NewFamily family;
-    family.parent = nodes[parent].old_id >= 0 ? nodes[parent].old_id : -1 - made[parent];
+    family.parent = parent == 0                 ? NewFamily::root_of_task
+                    : nodes[parent].old_id >= 0 ? nodes[parent].old_id
+                                                : -1 - made[parent];
     for (size_t child = 0; child < 4; ++child)
       family.exposed[child] = nodes[at + child].place.exposed;
     families.push_back(family);
@@ -29,7 +31,8 @@ std::vector<NewFamily> new_families(const SubtreeResult& result) {
   return families;
 }
 
-std::vector<NodeId> add_families(State& state, const std::vector<std::vector<NewFamily>>& families,
+std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
+                                 const std::vector<std::vector<NewFamily>>& families,
                                  ThreadTeam& team) {
   constexpr int64_t tasks_of_a_step = 64;
   const size_t bands = static_cast<size_t>(state.bands);
@@ -46,7 +49,9 @@ std::vector<NodeId> add_families(State& state, const std::vector<std::vector<New
   const auto add = [&](size_t task) {
     NodeId next = first[task];
     for (const NewFamily& family : families[task]) {
-      const NodeId parent = family.parent >= 0 ? family.parent : first[task] - 1 - family.parent;
+      const NodeId parent = family.parent == NewFamily::root_of_task ? roots[task]
+                            : family.parent >= 0                     ? family.parent
+                                                 : first[task] - 1 - family.parent;
       for (int child = 0; child < 4; ++child) {
         const size_t id = static_cast<size_t>(next + child);
         nodes[id] = child_place(nodes[static_cast<size_t>(parent)], child);
@@ -67,6 +72,16 @@ std::vector<NodeId> add_families(State& state, const std::vector<std::vector<New
       add(static_cast<size_t>(k));
   });
   return first;
+}
+
+void drop_elements(State& state, size_t first) {
+  std::vector<Node>& nodes = state.forest.nodes;
+  for (size_t k = first; k < nodes.size(); ++k)
+    nodes[static_cast<size_t>(nodes[k].parent)].first_child = -1;
+  nodes.resize(first);
+  for (auto* light : {&state.radiosity, &state.irradiance})
+    light->resize(first * static_cast<size_t>(state.bands));
+  state.links.resize(first);
 }
 
 }  // namespace hrad

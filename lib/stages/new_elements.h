@@ -2,6 +2,7 @@
 // tasks, put into the forest. Floor 7 (stages).
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "stages/exchange.h"
@@ -12,7 +13,8 @@ namespace hrad {
 // Elements are made four at a time: all that is to be known of them is whose children they are, and
 // how much of each is exposed.
 struct NewFamily {
-  NodeId parent;  // -1-k: new element k of the same task
+  static constexpr NodeId root_of_task = std::numeric_limits<NodeId>::min();
+  NodeId parent;  // an old element, the root of the task, or -1-k: its new element k
   float exposed[4];
 };
 
@@ -21,7 +23,11 @@ std::vector<NewFamily> new_families(const SubtreeResult& result);
 
 // Gives new elements their numbers, task by task, and the light of their parents for the time
 // being. Returns the number of each task's first one.
-std::vector<NodeId> add_families(State& state, const std::vector<std::vector<NewFamily>>& families,
+std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
+                                 const std::vector<std::vector<NewFamily>>& families,
                                  ThreadTeam& team);
+
+// Takes out the elements from number `first` on, whose parents are leaves again.
+void drop_elements(State& state, size_t first);
 
 }  // namespace hrad

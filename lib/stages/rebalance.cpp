@@ -9,8 +9,8 @@
 namespace hrad {
 namespace {
 
-// Of the largest share of the work; and the work of moving a link, in rays.
-constexpr double least_gain = 0.02, work_of_a_move = 0.1;
+// Of the largest load; and what it takes to move a link, in what refining one takes.
+constexpr double least_gain = 0.02, work_of_a_move = 0.02;
 
 double largest_load(const std::vector<double>& work, const std::vector<int32_t>& owners,
                     int ranks) {
@@ -91,12 +91,17 @@ bool rebalance(State& state, Exchange& exchange, std::vector<double> work) {
   exchange.share(work, itself);
   exchange.share(links, itself);
   std::vector<int32_t> owners = owners_by(state, work, ranks);
-  double moved = 0;
-  for (size_t k = 0; k < owners.size(); ++k)
+  double moved = 0, all_links = 0, all_work = 0;
+  for (size_t k = 0; k < owners.size(); ++k) {
     if (owners[k] != exchange.owner(static_cast<int32_t>(k))) moved += links[k];
+    all_links += links[k];
+    all_work += work[k];
+  }
+  if (!(all_links > 0)) return false;
   const double before = largest_load(work, exchange.owners(), ranks);
   const double gain = before - largest_load(work, owners, ranks);
-  if (!(gain > least_gain * before && gain > work_of_a_move * moved / ranks)) return false;
+  if (!(gain > least_gain * before && gain > work_of_a_move * moved / ranks * all_work / all_links))
+    return false;
   move_links(state, exchange, std::move(owners));
   return true;
 }

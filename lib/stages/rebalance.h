@@ -10,7 +10,8 @@
 namespace hrad {
 
 // Collective; before a round of refinement. work: that of each of this process's own surfaces, in
-// rays, as it is expected to be. True when that moved any.
+// any unit, as it is expected to be. A clock may have told it, as it decides no bit of the result.
+// True when that moved any.
 bool rebalance(State& state, Exchange& exchange, std::vector<double> work);
 
 // What is expected where nothing has been measured: the links of each of this process's surfaces.

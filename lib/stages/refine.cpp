@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "machine/process_usage.h"
 #include "stages/cluster_round.h"
 #include "stages/exchange.h"
 #include "stages/new_elements.h"
@@ -18,6 +19,8 @@ namespace {
 // A receiver subtree with more links than this is cut into its children's, so that no task holds up
 // the others.
 constexpr int64_t most_links_of_a_task = 200;
+// Links of a partly sealed element, in links of others.
+constexpr int64_t work_of_partly_sealed = 8;
 
 struct Task {
   NodeId root;
@@ -44,7 +47,9 @@ int64_t bytes_of(const SubtreeResult& result) {
   return static_cast<int64_t>(bytes);
 }
 
-// One round, pass after pass: first all surfaces, then the children of those that were cut.
+// One round, pass after pass: first all surfaces, then the children of those that were cut. Every
+// owner makes its passes alone, as no task sees what others have made; the elements have numbers of
+// its own until all owners are through.
 class RefiningRound {
  public:
   RefiningRound(State& state, const StageTools& tools, const Brightness& brightness)
@@ -52,6 +57,7 @@ class RefiningRound {
         tools_(tools),
         exchange_(tools.exchange),
         brightness_(brightness),
+        old_nodes_(state.forest.nodes.size()),
         weight_(subtree_links(state)),
         work_(state.forest.surfaces.size(), 0.0),
         memory_(state) {}
@@ -59,45 +65,55 @@ class RefiningRound {
   // met: by the top of the clusters from outside. False: stopped, and nothing has changed.
   bool run(Span<const NodeId> met);
 
-  // Rays that each of this process's own surfaces took.
+  // CPU that each of this process's own surfaces took, s.
   const std::vector<double>& work() const { return work_; }
 
  private:
+  // What the own tasks of a pass have made, in the order of the tasks.
+  struct Pass {
+    std::vector<NodeId> roots;
+    std::vector<SubtreeResult> results;
+    std::vector<std::vector<NewFamily>> families;
+    std::vector<NodeId> first;  // number of the first new element of each
+  };
+
   bool start(Span<const NodeId> met);
   bool pass();
+  std::vector<size_t> by_work();
   void store(std::vector<SubtreeResult> results);
+  void number_anew();
   void finish();
-  bool mine(const Task& task) const {
-    return exchange_.mine(state_.forest.nodes[task.root].surface);
-  }
 
   State& state_;
   const StageTools& tools_;
-  const Exchange& exchange_;
+  Exchange& exchange_;
   const Brightness& brightness_;
-  const std::vector<int64_t> weight_;  // of the nodes there were
-  std::vector<double> work_;           // rays of each surface
+  const size_t old_nodes_;
+  const std::vector<int64_t> weight_;  // of the old nodes
+  std::vector<double> work_;           // CPU of each own surface, s
   StageMemory memory_;
   std::unique_ptr<EndPointsTable> points_;
   ClusterRound clusters_;
-  std::vector<Task> tasks_;
-  bool first_pass_ = true;
-  // Of all passes, until they replace the old links.
-  std::vector<std::vector<SubtreeResult>> results_;
+  std::vector<Task> tasks_;  // own ones of the next pass
+  std::vector<Pass> passes_;
   std::vector<LinkTable::NewRun> new_links_;
 };
 
 bool RefiningRound::run(Span<const NodeId> met) {
   if (!start(met)) return false;
-  while (!tasks_.empty())
-    if (!pass()) return false;
+  bool going_on = true;
+  while (going_on && !tasks_.empty()) going_on = pass();
+  if (!exchange_.all_go_on(going_on)) {
+    drop_elements(state_, old_nodes_);
+    return false;
+  }
   finish();
   return true;
 }
 
 bool RefiningRound::start(Span<const NodeId> met) {
-  tasks_.resize(static_cast<size_t>(state_.forest.surface_count()));
-  for (size_t k = 0; k < tasks_.size(); ++k) tasks_[k].root = static_cast<NodeId>(k);
+  for (NodeId root = 0; root < state_.forest.surface_count(); ++root)
+    if (exchange_.mine(root)) tasks_.push_back({root, {}, {}});
   if (state_.forest.clusters.empty()) return true;
   const PointPlacer placer{state_.forest, tools_.exposure, tools_.engine.center(),
                            tools_.engine.offset()};
@@ -105,85 +121,130 @@ bool RefiningRound::start(Span<const NodeId> met) {
   memory_.take(points_->bytes(), "sample points of clusters");
   if (!refine_clusters(state_, tools_, brightness_, *points_, met, memory_, clusters_))
     return false;
-  for (size_t k = 0; k < tasks_.size(); ++k) tasks_[k].met = std::move(clusters_.met[k]);
+  for (Task& task : tasks_) task.met = std::move(clusters_.met[static_cast<size_t>(task.root)]);
   return true;
 }
 
-bool RefiningRound::pass() {
-  std::vector<size_t> own;
+// Large ones first: the last ones to end are small.
+std::vector<size_t> RefiningRound::by_work() {
+  std::vector<size_t> order;
   for (size_t k = 0; k < tasks_.size(); ++k) {
     Task& task = tasks_[k];
-    if (!mine(task)) continue;
-    own.push_back(k);
     const size_t root = static_cast<size_t>(task.root);
     task.work = (root < weight_.size() ? weight_[root] : 0) +
                 static_cast<int64_t>(task.arriving.size() + task.met.size());
+    // What is sealed takes many looks.
+    const float exposed = state_.forest.nodes[root].exposed;
+    if (exposed > 0 && exposed < 1) task.work *= work_of_partly_sealed;
+    order.push_back(k);
   }
-  // Large ones first: the last ones to end are small.
-  std::stable_sort(own.begin(), own.end(),
+  std::stable_sort(order.begin(), order.end(),
                    [&](size_t a, size_t b) { return tasks_[a].work > tasks_[b].work; });
+  return order;
+}
+
+// False: stopped.
+bool RefiningRound::pass() {
+  const std::vector<size_t> order = by_work();
   std::vector<SubtreeResult> results(tasks_.size());
   std::vector<std::unique_ptr<SubtreeRefiner>> refiners(tools_.team.size());
   for (auto& refiner : refiners)
     refiner = std::make_unique<SubtreeRefiner>(state_, tools_, brightness_, points_.get());
+  std::vector<double> seconds(tasks_.size(), 0.0);
+  const bool first = passes_.empty();
   const bool going_on = tools_.team.for_each(
-      static_cast<int64_t>(own.size()),
+      static_cast<int64_t>(order.size()),
       [&](int64_t turn, int worker) {
-        const size_t k = own[static_cast<size_t>(turn)];
+        const size_t k = order[static_cast<size_t>(turn)];
         const Task& task = tasks_[k];
+        const double start = thread_seconds();
         results[k] = refiners[worker]->refine(task.root, task.arriving, task.met,
                                               task.work > most_links_of_a_task);
+        seconds[k] = thread_seconds() - start;
         memory_.take(bytes_of(results[k]), "refined links");
       },
       [&](int64_t done) {
-        // Later passes are always carried to their end: nothing may be left of a round half done.
-        if (!first_pass_) return true;
-        return tools_.progress(static_cast<double>(done) / static_cast<double>(own.size()));
+        // Later passes are small beside the first.
+        return tools_.progress(first ? static_cast<double>(done) / static_cast<double>(order.size())
+                                     : 1);
       });
-  if (!exchange_.all_go_on(going_on)) return false;
-  first_pass_ = false;
+  if (!going_on) return false;
+  for (size_t k = 0; k < tasks_.size(); ++k)
+    work_[static_cast<size_t>(state_.forest.nodes[tasks_[k].root].surface)] += seconds[k];
   store(std::move(results));
   return true;
 }
 
 void RefiningRound::store(std::vector<SubtreeResult> results) {
-  const auto surface_of = [&](size_t k) { return state_.forest.nodes[tasks_[k].root].surface; };
-  std::vector<std::vector<NewFamily>> families(results.size());
-  std::vector<uint8_t> handed_on(results.size());
+  Pass pass;
+  for (const Task& task : tasks_) pass.roots.push_back(task.root);
+  pass.families.resize(results.size());
   tools_.team.for_each(static_cast<int64_t>(results.size()), [&](int64_t k, int) {
-    families[k] = new_families(results[k]);
-    handed_on[k] = results[k].handed_on;
+    pass.families[static_cast<size_t>(k)] = new_families(results[static_cast<size_t>(k)]);
   });
-  exchange_.share_lists(families, surface_of);
-  exchange_.share(handed_on, surface_of);
-  const std::vector<NodeId> first = add_families(state_, families, tools_.team);
+  pass.first = add_families(state_, pass.roots, pass.families, tools_.team);
   state_.links.resize(state_.forest.nodes.size());
   std::vector<Task> next;
   for (size_t k = 0; k < results.size(); ++k) {
     SubtreeResult& result = results[k];
-    state_.rays += result.rays;
-    work_[static_cast<size_t>(surface_of(k))] += static_cast<double>(result.rays);
-    const size_t kept = handed_on[k] ? 1 : result.nodes.size();
-    NodeId made = first[k];
-    for (size_t at = 0; at < kept && at < result.nodes.size(); ++at) {
-      const NodeId old = result.nodes[at].old_id;
-      new_links_.push_back({old >= 0 ? old : made++, result.nodes[at].run});
-    }
-    if (!handed_on[k]) continue;
-    const NodeId child = state_.forest.nodes[tasks_[k].root].first_child;
+    if (!result.handed_on) continue;
+    const NodeId child = state_.forest.nodes[pass.roots[k]].first_child;
     for (int32_t c = 0; c < 4; ++c) {
-      next.push_back({child + c, {}, {}});
-      if (result.nodes.empty()) continue;  // another's
       SubtreeNode& node = result.nodes[static_cast<size_t>(result.nodes[0].first_child + c)];
-      next.back().arriving = std::move(node.arriving);
-      next.back().met = std::move(node.meeting);
+      next.push_back({child + c, std::move(node.arriving), std::move(node.meeting)});
     }
   }
-  results_.push_back(std::move(results));
+  pass.results = std::move(results);
+  passes_.push_back(std::move(pass));
   tasks_ = std::move(next);
 }
 
+// The numbers that all elements have for all owners: pass by pass, in the order of all tasks.
+void RefiningRound::number_anew() {
+  drop_elements(state_, old_nodes_);
+  std::vector<NodeId> roots;
+  for (NodeId root = 0; root < state_.forest.surface_count(); ++root) roots.push_back(root);
+  for (size_t p = 0; !roots.empty(); ++p) {
+    const auto surface_of = [&](size_t k) { return state_.forest.nodes[roots[k]].surface; };
+    std::vector<std::vector<NewFamily>> families(roots.size());
+    std::vector<uint8_t> handed_on(roots.size(), 0);
+    std::vector<size_t> own;
+    for (size_t k = 0; k < roots.size(); ++k) {
+      if (!exchange_.mine(surface_of(k))) continue;
+      Pass& pass = passes_[p];
+      families[k] = std::move(pass.families[own.size()]);
+      handed_on[k] = pass.results[own.size()].handed_on;
+      own.push_back(k);
+    }
+    exchange_.share_lists(families, surface_of);
+    exchange_.share(handed_on, surface_of);
+    const std::vector<NodeId> first = add_families(state_, roots, families, tools_.team);
+    for (size_t k = 0; k < own.size(); ++k) {
+      passes_[p].roots[k] = roots[own[k]];
+      passes_[p].first[k] = first[own[k]];
+    }
+    std::vector<NodeId> next;
+    for (size_t k = 0; k < roots.size(); ++k)
+      for (int32_t c = 0; c < 4 && handed_on[k]; ++c)
+        next.push_back(state_.forest.nodes[roots[k]].first_child + c);
+    roots = std::move(next);
+  }
+}
+
+// Once all passes of all owners are known.
 void RefiningRound::finish() {
+  if (!exchange_.alone()) number_anew();
+  for (const Pass& pass : passes_)
+    for (size_t k = 0; k < pass.results.size(); ++k) {
+      const SubtreeResult& result = pass.results[k];
+      state_.rays += result.rays;
+      const size_t kept = result.handed_on ? 1 : result.nodes.size();
+      NodeId made = pass.first[k];
+      for (size_t at = 0; at < kept; ++at) {
+        const NodeId old = at == 0 ? pass.roots[k] : result.nodes[at].old_id;
+        new_links_.push_back({old >= 0 ? old : made++, result.nodes[at].run});
+      }
+    }
   const NodeId first = static_cast<NodeId>(state_.forest.surface_count());
   for (size_t k = 0; k < clusters_.runs.size(); ++k)
     new_links_.push_back({first + static_cast<NodeId>(k), clusters_.runs[k]});
@@ -194,8 +255,9 @@ void RefiningRound::finish() {
   memory_.take(
       std::max<int64_t>(0, links - state_.links.link_count()) * static_cast<int64_t>(sizeof(Link)),
       "refined links");
+  state_.links.resize(state_.forest.nodes.size());
   state_.links.replace(std::move(new_links_));
-  results_.clear();
+  passes_.clear();
   pull_exposure(state_.forest);
   measure_clusters(state_.forest);
   // What turned out to be sealed all over receives nothing.

@@ -11,8 +11,8 @@ namespace hrad {
 // the frozen state of the round before, so no lock is needed and the result depends on no order.
 // Receivers with many links are cut into the subtrees of their children, which follow in a further
 // pass. New elements come after the old ones, in task order, with their parent's radiosity.
-// False: stopped by tools.progress; the state is as it was before. work, if wanted: rays that each
-// surface of this process's own took.
+// False: stopped by tools.progress; the state is as it was before. work, if wanted: CPU that
+// each surface of this process's own took, in seconds.
 bool refine_links(State& state, const StageTools& tools, const Brightness& brightness,
                   std::vector<double>* work = nullptr);
 

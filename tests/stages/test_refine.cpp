@@ -196,16 +196,16 @@ void a_round_keeps_what_was_there() {
     after.refine(settings(kind, 0.3));
     const Forest &a = before.state.forest, &b = after.state.forest;
     CHECK(b.nodes.size() > a.nodes.size());
-    // The old ones keep their numbers; the new come in the order of their surfaces.
-    int32_t surface = 0;
+    // The old ones keep their numbers; the new come four by four behind their parents.
     for (size_t k = 0; k < b.nodes.size(); ++k) {
       if (k < a.nodes.size()) {
         CHECK(a.nodes[k].parent == b.nodes[k].parent && a.nodes[k].i == b.nodes[k].i &&
               a.nodes[k].j == b.nodes[k].j && a.nodes[k].level == b.nodes[k].level);
         CHECK(a.nodes[k].first_child < 0 || a.nodes[k].first_child == b.nodes[k].first_child);
       } else {
-        CHECK(b.nodes[k].surface >= surface);
-        surface = b.nodes[k].surface;
+        const Node& parent = b.nodes[b.nodes[k].parent];
+        CHECK(b.nodes[k].parent < static_cast<NodeId>(k));
+        CHECK(static_cast<size_t>(parent.first_child) == k - (k - a.nodes.size()) % 4);
       }
       // New elements begin with the light of their parents.
       if (k < a.nodes.size()) continue;
