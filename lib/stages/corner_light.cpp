@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "links/element.h"
 #include "links/pair_samples.h"
+#include "machine/pieces.h"
 #include "stages/exchange.h"
 #include "stages/open_cubes.h"
 #include "stages/point_numbers.h"
@@ -25,16 +26,19 @@ constexpr int tries_for_an_exposed_point = 64;
 constexpr int steps_to_a_border = 8;
 constexpr double sealed = -1;
 
-uint64_t key_of_corner(int32_t surface, LatticePoint p) {
-  return static_cast<uint64_t>(surface) << 32 | static_cast<uint64_t>(p.i) << 16 |
-         static_cast<uint64_t>(p.j);
-}
-
 uint32_t run_border(size_t links) {
   if (links > 0xffffffffu)
     fail(Status::memory,
          "more than 4,294,967,295 links from bright emitters: use a larger accuracy");
   return static_cast<uint32_t>(links);
+}
+
+void lattice_points(const Node& node, PointsOf which, LatticePoint point[3]) {
+  if (which == PointsOf::half_way_to_the_middle) return half_way_points(node, point);
+  LatticePoint corner[3];
+  lattice_corners(node, corner);
+  for (int c = 0; c < 3; ++c)
+    point[c] = which == PointsOf::corners ? corner[c] : middle(corner[c], corner[(c + 1) % 3]);
 }
 
 // Three points that have the mean of every quadratic field over a trapezoid whose parallel sides
@@ -71,28 +75,49 @@ CornerSampler::CornerSampler(State& state, const StageTools& tools, const Direct
   state_.direct.first.push_back(0);
 }
 
-void CornerSampler::want(int32_t surface, LatticePoint point) {
-  const int32_t next = static_cast<int32_t>(value_.size() + wanted_.size());
-  if (!number_.emplace(key_of_corner(surface, point), next).second) return;
+void CornerSampler::want(const std::vector<ElementPoints>& all) {
+  std::vector<uint64_t> keys(3 * all.size());
+  for_each_thing(tools_.team, all.size(), [&](size_t k) {
+    const Node& node = state_.forest.nodes[all[k].element];
+    LatticePoint point[3];
+    lattice_points(node, all[k].which, point);
+    for (size_t c = 0; c < 3; ++c) keys[3 * k + c] = key_of_corner(node.surface, point[c]);
+  });
+  const std::vector<uint32_t> added = number_.add(keys, static_cast<int32_t>(asked()), tools_.team);
+  const size_t before = wanted_.size();
+  wanted_.resize(before + added.size());
+  for_each_thing(tools_.team, added.size(),
+                 [&](size_t k) { wanted_[before + k] = wanted_of(keys[added[k]]); });
+}
+
+CornerSampler::Wanted CornerSampler::wanted_of(uint64_t key) const {
+  const int32_t surface = surface_of_corner(key);
+  const LatticePoint point = point_of_corner(key);
   const Surface& s = state_.forest.surfaces[surface];
-  wanted_.push_back({surface, mix(key_of_corner(s.patch * 2 + s.side, point), seed_),
-                     moved_inwards(surface, point_of(surface, point))});
+  return {surface, mix(key_of_corner(s.patch * 2 + s.side, point), seed_),
+          moved_inwards(surface, point_of(surface, point))};
+}
+
+CornerSampler::Wanted CornerSampler::own_of(NodeId element, int which, Vec3 place) const {
+  const Node& node = state_.forest.nodes[element];
+  return {node.surface, mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(which)),
+          place};
 }
 
 int32_t CornerSampler::add(NodeId element, int which, Vec3 place) {
-  const Node& node = state_.forest.nodes[element];
-  const uint64_t key = mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(which));
-  wanted_.push_back({node.surface, key, place});
-  return static_cast<int32_t>(value_.size() + wanted_.size()) - 1;
+  wanted_.push_back(own_of(element, which, place));
+  return static_cast<int32_t>(asked()) - 1;
 }
 
-int32_t CornerSampler::number(int32_t surface, LatticePoint point) const {
-  return number_.at(key_of_corner(surface, point));
-}
-
-int32_t CornerSampler::find(int32_t surface, LatticePoint point) const {
-  const auto found = number_.find(key_of_corner(surface, point));
-  return found == number_.end() ? -1 : found->second;
+int32_t CornerSampler::add_middles(const std::vector<NodeId>& elements, int which) {
+  const int32_t first = static_cast<int32_t>(asked());
+  const size_t before = wanted_.size();
+  wanted_.resize(before + elements.size());
+  for_each_thing(tools_.team, elements.size(), [&](size_t k) {
+    const Triangle t = state_.forest.triangle(state_.forest.nodes[elements[k]]);
+    wanted_[before + k] = own_of(elements[k], which, t.centroid());
+  });
+  return first;
 }
 
 Vec3 CornerSampler::point_of(int32_t surface, LatticePoint point) const {
@@ -114,8 +139,7 @@ bool CornerSampler::is_sealed(int32_t surface, Vec3 place) const {
 }
 
 void CornerSampler::count_memory() {
-  constexpr size_t bytes_of_a_number = 48;  // in the table that finds it
-  const size_t bytes = number_.size() * bytes_of_a_number + wanted_.capacity() * sizeof(Wanted) +
+  const size_t bytes = static_cast<size_t>(number_.bytes()) + wanted_.capacity() * sizeof(Wanted) +
                        value_.capacity() * sizeof value_[0] + place_.capacity() * sizeof(Place);
   memory_.take(static_cast<int64_t>(bytes) - counted_, "points at which direct light is known");
   counted_ = static_cast<int64_t>(bytes);
@@ -123,20 +147,25 @@ void CornerSampler::count_memory() {
 
 bool CornerSampler::sample() {
   count_memory();
-  std::vector<OrientedPoint> points;
-  std::vector<KeyedPoint> keyed;
-  for (const Wanted& wanted : wanted_) {
-    points.push_back({wanted.place, state_.forest.surfaces[wanted.surface].normal});
-    keyed.push_back({wanted.surface, wanted.key, points.back()});
-  }
+  std::vector<OrientedPoint> points(wanted_.size());
+  std::vector<KeyedPoint> keyed(wanted_.size());
+  for_each_thing(tools_.team, wanted_.size(), [&](size_t k) {
+    const Wanted& wanted = wanted_[k];
+    points[k] = {wanted.place, state_.forest.surfaces[wanted.surface].normal};
+    keyed[k] = {wanted.surface, wanted.key, points[k]};
+  });
   state_.rays += open_cubes(grid_, keyed, tools_);
   bool going_on = true;
   for (size_t first = 0; first < points.size() && going_on; first += corners_of_a_step)
     going_on = sample_some(points, first, std::min(points.size(), first + corners_of_a_step));
   if (!tools_.exchange.all_go_on(going_on)) return false;
-  for (const Wanted& wanted : wanted_)
-    place_.push_back({static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
-                      static_cast<float>(wanted.place.z), wanted.surface});
+  const size_t before = place_.size();
+  place_.resize(before + wanted_.size());
+  for_each_thing(tools_.team, wanted_.size(), [&](size_t k) {
+    const Wanted& wanted = wanted_[k];
+    place_[before + k] = {static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
+                          static_cast<float>(wanted.place.z), wanted.surface};
+  });
   wanted_.clear();
   count_memory();
   return true;
@@ -261,7 +290,8 @@ void CornerSampler::drop_what_is_unnamed() {
         const Place& p = place_[static_cast<size_t>(point)];
         return emitters.bright(emitters.all()[emitters.of_node(link.source)], {p.x, p.y, p.z},
                                state_.forest.surfaces[p.surface].normal);
-      });
+      },
+      &tools_.team);
 }
 
 }  // namespace hrad

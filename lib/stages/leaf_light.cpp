@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "base/hash.h"
 #include "links/element.h"
+#include "machine/pieces.h"
 #include "stages/exchange.h"
 #include "stages/state_memory.h"
 
@@ -56,36 +59,43 @@ struct LeafLight::Shares {
 };
 
 std::vector<NodeId> LeafLight::new_leaves() {
-  const NodeId end = static_cast<NodeId>(forest_.nodes.size());
-  std::vector<NodeId> leaves;
-  for (NodeId id = named_; id < end; ++id) {
-    const Node& node = forest_.nodes[id];
-    if (!Forest::is_cluster(node) && forest_.is_leaf(id) && node.exposed > 0) leaves.push_back(id);
-  }
   forget_divided();
+  const NodeId first = named_, end = static_cast<NodeId>(forest_.nodes.size());
   named_ = end;
   state_.direct.mean.resize(forest_.nodes.size());
-  return leaves;
+  return gathered<NodeId>(
+      tools_.team, static_cast<size_t>(end - first), [&](size_t k, std::vector<NodeId>& leaves) {
+        const NodeId id = first + static_cast<NodeId>(k);
+        const Node& node = forest_.nodes[id];
+        if (!Forest::is_cluster(node) && forest_.is_leaf(id) && node.exposed > 0)
+          leaves.push_back(id);
+      });
 }
 
 bool LeafLight::name() {
-  std::vector<NodeId> leaves;
-  for (NodeId leaf : new_leaves())
-    if (tools_.exchange.mine(forest_.nodes[leaf].surface)) leaves.push_back(leaf);
+  std::vector<NodeId> leaves = new_leaves();
+  const auto is_others = [&](NodeId leaf) {
+    return !tools_.exchange.mine(forest_.nodes[leaf].surface);
+  };
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), is_others), leaves.end());
   state_.direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
-  std::vector<NodeId> partly_sealed;
-  for (NodeId leaf : leaves)
-    if (!take_corners(leaf)) partly_sealed.push_back(leaf);
-  take_own_points(partly_sealed);
-  std::vector<int32_t> centroids;
-  std::vector<KeyedPoint> middles;
-  for (NodeId leaf : leaves) {
-    middles.push_back(keyed_middle_of(forest_, leaf));
-    const bool wanted = forest_.nodes[leaf].light_points == at_corners;
-    centroids.push_back(wanted ? corners_.add(leaf, number_of_centroid,
-                                              forest_.triangle(forest_.nodes[leaf]).centroid())
-                               : -1);
-  }
+  take_own_points(gathered<NodeId>(tools_.team, leaves.size(),
+                                   [&](size_t k, std::vector<NodeId>& partly_sealed) {
+                                     if (!take_corners(leaves[k]))
+                                       partly_sealed.push_back(leaves[k]);
+                                   }));
+  const auto wants_its_middle = [&](NodeId leaf) {
+    return forest_.nodes[leaf].light_points == at_corners;
+  };
+  std::vector<NodeId> wanted;
+  std::copy_if(leaves.begin(), leaves.end(), std::back_inserter(wanted), wants_its_middle);
+  int32_t next = corners_.add_middles(wanted, number_of_centroid);
+  std::vector<int32_t> centroids(leaves.size(), -1);
+  for (size_t k = 0; k < leaves.size(); ++k)
+    if (wants_its_middle(leaves[k])) centroids[k] = next++;
+  std::vector<KeyedPoint> middles(leaves.size());
+  for_each_thing(tools_.team, leaves.size(),
+                 [&](size_t k) { middles[k] = keyed_middle_of(forest_, leaves[k]); });
   state_.rays += open_cubes(grid_, middles, tools_);
   corners_.expect(corners_.asked());
   if (!corners_.sample()) return false;
@@ -94,13 +104,15 @@ bool LeafLight::name() {
 }
 
 void LeafLight::forget_divided() {
-  std::vector<LinkTable::NewRun> none;
-  for (NodeId id = 0; id < named_; ++id) {
-    if (forest_.is_leaf(id) || Forest::is_cluster(forest_.nodes[id])) continue;
-    if (!state_.direct.of_leaf.empty()) state_.direct.of_leaf[id] = {-1, -1, -1};
-    if (state_.direct.mean[id].count() > 0) none.push_back({id, {}});
-  }
-  state_.direct.mean.replace(std::move(none));
+  auto none = gathered<LinkTable::NewRun>(
+      tools_.team, static_cast<size_t>(named_),
+      [&](size_t k, std::vector<LinkTable::NewRun>& runs) {
+        const NodeId id = static_cast<NodeId>(k);
+        if (forest_.is_leaf(id) || Forest::is_cluster(forest_.nodes[id])) return;
+        if (!state_.direct.of_leaf.empty()) state_.direct.of_leaf[id] = {-1, -1, -1};
+        if (state_.direct.mean[id].count() > 0) runs.push_back({id, {}});
+      });
+  state_.direct.mean.replace(std::move(none), &tools_.team);
 }
 
 // False: some are sealed.
@@ -113,7 +125,7 @@ bool LeafLight::take_corners(NodeId leaf) {
     lattice_corners(node, point);
   std::array<int32_t, 3> number;
   for (int c = 0; c < 3; ++c) {
-    number[c] = corners_.number(node.surface, point[c]);
+    number[c] = corners_.find(node.surface, point[c]);
     if (corners_.value(number[c]) < 0) return false;
   }
   state_.direct.of_leaf[leaf] = number;
@@ -216,14 +228,14 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
     }
     memory.take(static_cast<int64_t>(r.links.capacity() * sizeof(Link)), "direct light of leaves");
   });
-  std::vector<LinkTable::NewRun> runs;
-  for (int64_t k = 0; k < count; ++k) {
+  std::vector<LinkTable::NewRun> runs(leaves.size());
+  for_each_thing(tools_.team, leaves.size(), [&](size_t k) {
     const Result& r = results[k / leaves_of_a_task];
-    const size_t in_task = static_cast<size_t>(k % leaves_of_a_task);
+    const size_t in_task = k % leaves_of_a_task;
     const size_t begin = in_task ? r.end[in_task - 1] : 0;
-    runs.push_back({leaves[k], {r.links.data() + begin, r.end[in_task] - begin}});
-  }
-  state_.direct.mean.replace(std::move(runs));
+    runs[k] = {leaves[k], {r.links.data() + begin, r.end[in_task] - begin}};
+  });
+  state_.direct.mean.replace(std::move(runs), &tools_.team);
 }
 
 }  // namespace hrad

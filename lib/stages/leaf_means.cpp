@@ -48,7 +48,7 @@ void LeafLight::put_means(const std::vector<NodeId>& leaves, size_t first, const
     runs.push_back({leaves[first++], {next, count}});
     next += count;
   }
-  state_.direct.mean.replace(std::move(runs));
+  state_.direct.mean.replace(std::move(runs), &tools_.team);
   state_.rays += step.rays;
 }
 

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 
+#include "machine/pieces.h"
 #include "stages/exchange.h"
 
 namespace hrad {
 
 int64_t open_cubes(LightGrid& grid, const std::vector<KeyedPoint>& own, const StageTools& tools) {
-  std::vector<KeyedPoint> closed;
-  for (const KeyedPoint& p : own)
-    if (grid.is_closed(p.point)) closed.push_back(p);
+  std::vector<KeyedPoint> closed =
+      gathered<KeyedPoint>(tools.team, own.size(), [&](size_t k, std::vector<KeyedPoint>& found) {
+        if (grid.is_closed(own[k].point)) found.push_back(own[k]);
+      });
   tools.exchange.unite(closed);
   if (closed.empty()) return 0;
   std::sort(closed.begin(), closed.end(), [](const KeyedPoint& a, const KeyedPoint& b) {

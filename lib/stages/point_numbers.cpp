@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "machine/pieces.h"
+
 namespace hrad {
 
 void number_points_by_leaves(CornerLight& direct, const std::function<bool(NodeId leaf)>& keep_leaf,
-                             const std::function<bool(int32_t point, const Link&)>& keep_link) {
+                             const std::function<bool(int32_t point, const Link&)>& keep_link,
+                             ThreadTeam* team) {
   constexpr int32_t unnamed = -1;
   std::vector<int32_t> number(direct.point_count(), unnamed), order;
   for (size_t id = 0; id < direct.of_leaf.size(); ++id) {
@@ -26,13 +29,21 @@ void number_points_by_leaves(CornerLight& direct, const std::function<bool(NodeI
       point = given;
     }
   }
-  std::vector<Link> links;
-  std::vector<uint32_t> first(1, 0);
-  for (int32_t point : order) {
-    for (const Link& link : direct.links_of_point(point))
-      if (keep_link(point, link)) links.push_back(link);
-    first.push_back(static_cast<uint32_t>(links.size()));
-  }
+  std::vector<uint32_t> first(order.size() + 1, 0);
+  std::vector<std::vector<Link>> kept(pieces_of(order.size()));
+  const auto keep_some = [&](size_t piece, size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      const size_t before = kept[piece].size();
+      for (const Link& link : direct.links_of_point(order[k]))
+        if (keep_link(order[k], link)) kept[piece].push_back(link);
+      first[k + 1] = static_cast<uint32_t>(kept[piece].size() - before);
+    }
+  };
+  if (team)
+    for_each_piece(*team, order.size(), keep_some);
+  else if (!order.empty())
+    keep_some(0, 0, order.size());
+  for (size_t k = 0; k < order.size(); ++k) first[k + 1] += first[k];
   size_t own = 0;
   for (const CornerLight::OwnPoint& point : direct.own)
     if (number[static_cast<size_t>(point.number)] != unnamed)
@@ -40,7 +51,7 @@ void number_points_by_leaves(CornerLight& direct, const std::function<bool(NodeI
   direct.own.resize(own);
   std::sort(direct.own.begin(), direct.own.end(),
             [](const auto& a, const auto& b) { return a.number < b.number; });
-  direct.links = std::move(links);
+  direct.links = joined(kept);
   direct.first = std::move(first);
 }
 

@@ -9,7 +9,9 @@
 namespace hrad {
 
 // Keeps the points that these leaves name, with these of their links. Other leaves have none then.
+// With a team keep_link is called on its threads.
 void number_points_by_leaves(CornerLight& direct, const std::function<bool(NodeId leaf)>& keep_leaf,
-                             const std::function<bool(int32_t point, const Link&)>& keep_link);
+                             const std::function<bool(int32_t point, const Link&)>& keep_link,
+                             ThreadTeam* team = nullptr);
 
 }  // namespace hrad

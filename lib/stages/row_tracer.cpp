@@ -86,14 +86,15 @@ class RowTracer {
 };
 
 // The rows of the cells from `first` on.
-void put(State& state, const LinkStep& step, const std::vector<NodeId>& cells, int64_t first) {
+void put(State& state, ThreadTeam& team, const LinkStep& step, const std::vector<NodeId>& cells,
+         int64_t first) {
   std::vector<LinkTable::NewRun> runs;
   const Link* next = step.links.data();
   for (uint32_t count : step.counts) {
     runs.push_back({cells[static_cast<size_t>(first++)], {next, count}});
     next += count;
   }
-  state.links.replace(std::move(runs));
+  state.links.replace(std::move(runs), &team);
   state.rays += step.rays;
 }
 
@@ -113,7 +114,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     };
     if (const LinkStep* done =
             state.journal.done(static_cast<size_t>(end - first), false, is_element)) {
-      put(state, *done, cells, first);
+      put(state, tools.team, *done, cells, first);
       memory.settle();
       continue;
     }
@@ -151,7 +152,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
       step.links.insert(step.links.end(), row.begin(), row.end());
       row = std::vector<Link>();
     }
-    put(state, step, cells, first);
+    put(state, tools.team, step, cells, first);
     state.journal.record(std::move(step));
     memory.settle();
   }
