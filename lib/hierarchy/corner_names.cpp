@@ -2,29 +2,43 @@
 #include "hierarchy/corner_names.h"
 
 #include <algorithm>
-#include <cmath>
-#include <tuple>
 #include <utility>
+
+#include "base/hash.h"
+#include "base/number_table.h"
 
 namespace hrad {
 namespace {
 
+uint64_t hash_of(Vec3 position) {
+  Hasher hasher;
+  for (double x : {position.x, position.y, position.z}) hasher.add(x);
+  return hasher.value() >> 1;
+}
+
 // Per vertex of the scene the lowest vertex at the same position.
 std::vector<int32_t> weld(const std::vector<Vec3>& vertices) {
-  std::vector<int32_t> order(vertices.size()), welded(vertices.size());
-  for (size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int32_t>(k);
-  const auto position = [&](int32_t k) {
-    return std::make_tuple(vertices[k].x, vertices[k].y, vertices[k].z);
-  };
-  std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
-    const auto pa = position(a), pb = position(b);
-    return pa != pb ? pa < pb : a < b;
-  });
-  for (size_t k = 0; k < order.size(); ++k) {
-    const bool same = k > 0 && position(order[k]) == position(order[k - 1]);
-    welded[order[k]] = same ? welded[order[k - 1]] : order[k];
+  std::vector<int32_t> welded(vertices.size());
+  NumberTable first_at;
+  first_at.make_room(vertices.size());
+  for (size_t k = 0; k < vertices.size(); ++k) {
+    const Vec3& here = vertices[k];
+    const auto is_elsewhere = [&](int32_t other) {
+      const Vec3& there = vertices[static_cast<size_t>(other)];
+      return there.x != here.x || there.y != here.y || there.z != here.z;
+    };
+    uint64_t key = hash_of(here);
+    int32_t* first = &first_at.at(key);
+    while (*first != NumberTable::none && is_elsewhere(*first))
+      first = &first_at.at(key = mix(key) >> 1);
+    if (*first == NumberTable::none) *first = static_cast<int32_t>(k);
+    welded[k] = *first;
   }
   return welded;
+}
+
+uint64_t named(int32_t upper, int32_t lower) {
+  return static_cast<uint64_t>(upper) << 32 | static_cast<uint32_t>(lower);
 }
 
 int32_t find_root(std::vector<int32_t>& parent, int32_t k) {
@@ -41,13 +55,9 @@ CornerNames::CornerNames(const Forest& forest) {
   plane_.resize(surfaces);
   vertex_.resize(static_cast<size_t>(surfaces) * 3);
   edge_.resize(static_cast<size_t>(surfaces) * 3);
-  struct Edge {
-    int32_t low, high, surface, corner;
-    bool operator<(const Edge& o) const {
-      return std::tie(low, high, surface, corner) < std::tie(o.low, o.high, o.surface, o.corner);
-    }
-  };
-  std::vector<Edge> edges;
+  NumberTable edges;
+  edges.make_room(edge_.size() / 2);
+  std::vector<uint32_t> first(1, 0);  // per edge and one more: of the surfaces that have it
   for (int32_t s = 0; s < surfaces; ++s) {
     plane_[s] = s;
     auto corners = scene.corners[forest.surfaces[s].patch];
@@ -55,35 +65,32 @@ CornerNames::CornerNames(const Forest& forest) {
     for (int k = 0; k < 3; ++k) vertex_[3 * s + k] = welded[corners[k]];
     for (int k = 0; k < 3; ++k) {
       const int32_t a = vertex_[3 * s + k], b = vertex_[3 * s + (k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), s, k});
+      int32_t& edge = edges.at(named(std::min(a, b), std::max(a, b)));
+      if (edge == NumberTable::none) {
+        edge = static_cast<int32_t>(first.size()) - 1;
+        first.push_back(0);
+      }
+      edge_[3 * s + k] = edge;
+      ++first[static_cast<size_t>(edge) + 1];
     }
   }
-  std::sort(edges.begin(), edges.end());
-  for (size_t first = 0; first < edges.size();) {
-    size_t end = first + 1;
-    while (end < edges.size() && edges[end].low == edges[first].low &&
-           edges[end].high == edges[first].high)
-      ++end;
-    for (size_t a = first; a < end; ++a)
-      edge_[3 * edges[a].surface + edges[a].corner] = static_cast<int32_t>(first);
-    for (size_t a = first; a < end; ++a)
-      for (size_t b = a + 1; b < std::min(end, a + 8); ++b) {
-        const Surface &x = forest.surfaces[edges[a].surface],
-                      &y = forest.surfaces[edges[b].surface];
-        if (!share_plane(x, y)) continue;
-        const int32_t p = find_root(plane_, edges[a].surface),
-                      q = find_root(plane_, edges[b].surface);
+  for (size_t edge = 1; edge < first.size(); ++edge) first[edge] += first[edge - 1];
+  std::vector<uint32_t> next(first.begin(), first.end() - 1);
+  std::vector<int32_t> having(edge_.size());
+  for (size_t k = 0; k < edge_.size(); ++k)
+    having[next[static_cast<size_t>(edge_[k])]++] = static_cast<int32_t>(k / 3);
+  for (size_t edge = 0; edge + 1 < first.size(); ++edge)
+    for (uint32_t a = first[edge]; a < first[edge + 1]; ++a)
+      for (uint32_t b = a + 1; b < std::min(first[edge + 1], a + 8); ++b) {
+        const int32_t x = having[a], y = having[b];
+        if (!share_plane(forest.surfaces[x], forest.surfaces[y])) continue;
+        const int32_t p = find_root(plane_, x), q = find_root(plane_, y);
         plane_[std::max(p, q)] = std::min(p, q);
       }
-    first = end;
-  }
   for (int32_t s = 0; s < surfaces; ++s) plane_[s] = find_root(plane_, s);
 }
 
 uint64_t CornerNames::name(int32_t surface, LatticePoint p) const {
-  const auto named = [](int32_t upper, int32_t lower) {
-    return static_cast<uint64_t>(upper) << 32 | static_cast<uint32_t>(lower);
-  };
   // Within a patch both coordinates are smaller: these bits are free.
   constexpr int32_t of_an_edge = lattice_size;
   constexpr uint64_t of_a_vertex = uint64_t{lattice_size} << 16;

@@ -26,13 +26,6 @@ constexpr int tries_for_an_exposed_point = 64;
 constexpr int steps_to_a_border = 8;
 constexpr double sealed = -1;
 
-uint32_t run_border(size_t links) {
-  if (links > 0xffffffffu)
-    fail(Status::memory,
-         "more than 4,294,967,295 links from bright emitters: use a larger accuracy");
-  return static_cast<uint32_t>(links);
-}
-
 void lattice_points(const Node& node, PointsOf which, LatticePoint point[3]) {
   if (which == PointsOf::half_way_to_the_middle) return half_way_points(node, point);
   LatticePoint corner[3];
@@ -109,15 +102,13 @@ int32_t CornerSampler::add(NodeId element, int which, Vec3 place) {
   return static_cast<int32_t>(asked()) - 1;
 }
 
-int32_t CornerSampler::add_middles(const std::vector<NodeId>& elements, int which) {
-  const int32_t first = static_cast<int32_t>(asked());
+void CornerSampler::add_middles(const std::vector<NodeId>& elements, int which) {
   const size_t before = wanted_.size();
   wanted_.resize(before + elements.size());
   for_each_thing(tools_.team, elements.size(), [&](size_t k) {
     const Triangle t = state_.forest.triangle(state_.forest.nodes[elements[k]]);
     wanted_[before + k] = own_of(elements[k], which, t.centroid());
   });
-  return first;
 }
 
 Vec3 CornerSampler::point_of(int32_t surface, LatticePoint point) const {
@@ -140,24 +131,24 @@ bool CornerSampler::is_sealed(int32_t surface, Vec3 place) const {
 
 void CornerSampler::count_memory() {
   const size_t bytes = static_cast<size_t>(number_.bytes()) + wanted_.capacity() * sizeof(Wanted) +
-                       value_.capacity() * sizeof value_[0] + place_.capacity() * sizeof(Place);
+                       value_.capacity() * sizeof value_[0] + place_.capacity() * sizeof(Place) +
+                       links_.capacity() * sizeof links_[0] + link_count_ * sizeof(Link);
   memory_.take(static_cast<int64_t>(bytes) - counted_, "points at which direct light is known");
   counted_ = static_cast<int64_t>(bytes);
 }
 
 bool CornerSampler::sample() {
   count_memory();
-  std::vector<OrientedPoint> points(wanted_.size());
-  std::vector<KeyedPoint> keyed(wanted_.size());
-  for_each_thing(tools_.team, wanted_.size(), [&](size_t k) {
-    const Wanted& wanted = wanted_[k];
-    points[k] = {wanted.place, state_.forest.surfaces[wanted.surface].normal};
-    keyed[k] = {wanted.surface, wanted.key, points[k]};
-  });
-  state_.rays += open_cubes(grid_, keyed, tools_);
+  const size_t count = wanted_.size();
+  state_.rays += open_cubes(
+      grid_, count,
+      [&](size_t k) {
+        return KeyedPoint{wanted_[k].surface, wanted_[k].key, point_of(wanted_[k])};
+      },
+      tools_);
   bool going_on = true;
-  for (size_t first = 0; first < points.size() && going_on; first += corners_of_a_step)
-    going_on = sample_some(points, first, std::min(points.size(), first + corners_of_a_step));
+  for (size_t first = 0; first < count && going_on; first += corners_of_a_step)
+    going_on = sample_some(first, std::min(count, first + corners_of_a_step));
   if (!tools_.exchange.all_go_on(going_on)) return false;
   const size_t before = place_.size();
   place_.resize(before + wanted_.size());
@@ -172,8 +163,7 @@ bool CornerSampler::sample() {
 }
 
 // Those from first to end-1, unless they were sampled before.
-bool CornerSampler::sample_some(const std::vector<OrientedPoint>& points, size_t first,
-                                size_t end) {
+bool CornerSampler::sample_some(size_t first, size_t end) {
   const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
   if (const LinkStep* done = state_.journal.done(end - first, true, is_emitter)) {
     put(*done);
@@ -193,7 +183,7 @@ bool CornerSampler::sample_some(const std::vector<OrientedPoint>& points, size_t
           const size_t before = r.links.size();
           double value = sealed;
           if (!is_sealed(wanted.surface, wanted.place)) {
-            r.rays += light_.sample(points[k], wanted.key, r.links);
+            r.rays += light_.sample(point_of(wanted), wanted.key, r.links);
             value = 0;
             for (size_t l = before; l < r.links.size(); ++l)
               value +=
@@ -202,6 +192,7 @@ bool CornerSampler::sample_some(const std::vector<OrientedPoint>& points, size_t
           r.values.push_back(static_cast<float>(value));
           r.counts.push_back(static_cast<uint32_t>(r.links.size() - before));
         }
+        r.links.shrink_to_fit();
       },
       [&](int64_t done) {
         const double known = static_cast<double>(value_.size()) +
@@ -209,23 +200,32 @@ bool CornerSampler::sample_some(const std::vector<OrientedPoint>& points, size_t
         return tools_.progress(known / static_cast<double>(std::max(expected_, asked())));
       });
   if (!going_on) return false;
-  LinkStep step;
-  for (LinkStep& r : results) {
-    step.append(r);
-    r = LinkStep{};
+  if (state_.journal.recording) {
+    LinkStep step;
+    for (const LinkStep& r : results) step.append(r);
+    state_.journal.record(std::move(step));
   }
-  put(step);
-  state_.journal.record(std::move(step));
+  for (LinkStep& r : results) put(std::move(r));
   return true;
 }
 
-void CornerSampler::put(const LinkStep& step) {
-  CornerLight& direct = state_.direct;
-  size_t end = direct.links.size();
-  direct.links.insert(direct.links.end(), step.links.begin(), step.links.end());
-  for (uint32_t count : step.counts) direct.first.push_back(run_border(end += count));
+void CornerSampler::put(LinkStep step) {
+  const Link* next = step.links.data();
+  for (uint32_t count : step.counts) {
+    links_.push_back({next, count});
+    next += count;
+  }
   value_.insert(value_.end(), step.values.begin(), step.values.end());
   state_.rays += step.rays;
+  link_count_ += step.links.size();
+  if (link_count_ > 0xffffffffu)
+    fail(Status::memory,
+         "more than 4,294,967,295 links from bright emitters: use a larger accuracy");
+  parts_.push_back(std::move(step.links));
+}
+
+OrientedPoint CornerSampler::point_of(const Wanted& wanted) const {
+  return {wanted.place, state_.forest.surfaces[wanted.surface].normal};
 }
 
 // The last exposed point on the way.
@@ -282,14 +282,17 @@ bool CornerSampler::exposed_within(const Node& node, Vec3* place) const {
   return false;
 }
 
-void CornerSampler::drop_what_is_unnamed() {
+void CornerSampler::keep_what_is_named() {
   const Emitters& emitters = grid_.emitters();
   number_points_by_leaves(
-      state_.direct, [](NodeId) { return true; },
-      [&](int32_t point, const Link& link) {
+      state_.direct, value_.size(), [](NodeId) { return true; },
+      [&](int32_t point, std::vector<Link>& kept) {
         const Place& p = place_[static_cast<size_t>(point)];
-        return emitters.bright(emitters.all()[emitters.of_node(link.source)], {p.x, p.y, p.z},
-                               state_.forest.surfaces[p.surface].normal);
+        const Vec3 normal = state_.forest.surfaces[p.surface].normal;
+        for (const Link& link : links_of(point))
+          if (emitters.bright(emitters.all()[emitters.of_node(link.source)], {p.x, p.y, p.z},
+                              normal))
+            kept.push_back(link);
       },
       &tools_.team);
 }

@@ -37,6 +37,7 @@ class CornerSampler {
   // sealed.
   double value(int32_t number) const { return value_[number]; }
   double value(int32_t surface, LatticePoint point) const { return value_[find(surface, point)]; }
+  Span<const Link> links_of(int32_t number) const { return links_[number]; }
   // The number of a corner that may have been asked for, -1: it wasn't.
   int32_t find(int32_t surface, LatticePoint point) const {
     return number_.find(key_of_corner(surface, point));
@@ -45,16 +46,17 @@ class CornerSampler {
   // Asks for the light at a point that is an element's own, and gives it a number; `which` tells
   // apart those of one element.
   int32_t add(NodeId element, int which, Vec3 place);
-  // The same of the middles of many elements. Their numbers follow each other from this one on.
-  int32_t add_middles(const std::vector<NodeId>& elements, int which);
+  // The same of the middles of many elements, whose numbers follow each other from asked() on.
+  void add_middles(const std::vector<NodeId>& elements, int which);
   // Three points that have the mean of every quadratic field over the exposed part of an element
   // some of whose corners are sealed, as far as that part is a triangle or a quadrangle; or thrice
   // one exposed point within. False: nothing exposed was found. Any thread.
   bool points_of_exposed(NodeId element, const LatticePoint corner[3], Vec3 place[3]) const;
 
-  // Takes out the points that no leaf names, those that only showed that nothing need be divided,
-  // and links from emitters that are not quite bright where they were sampled. Once, at the end.
-  void drop_what_is_unnamed();
+  // Fills state.direct with points and links, without the points that no leaf names, those that
+  // only showed that nothing need be divided, and links from emitters that are not quite bright
+  // where they were sampled. Once, at the end.
+  void keep_what_is_named();
 
  private:
   struct Wanted {
@@ -64,8 +66,9 @@ class CornerSampler {
   };
   Wanted wanted_of(uint64_t key) const;
   Wanted own_of(NodeId element, int which, Vec3 place) const;
-  bool sample_some(const std::vector<OrientedPoint>& points, size_t first, size_t end);
-  void put(const LinkStep& step);
+  OrientedPoint point_of(const Wanted& wanted) const;
+  bool sample_some(size_t first, size_t end);
+  void put(LinkStep step);
   void count_memory();
   Vec3 point_of(int32_t surface, LatticePoint point) const;
   Vec3 moved_inwards(int32_t surface, Vec3 on) const;
@@ -81,7 +84,10 @@ class CornerSampler {
   const uint64_t seed_;
   CornerNumbers number_;
   std::vector<Wanted> wanted_;
-  std::vector<float> value_;
+  std::vector<float> value_;             // per sampled point
+  std::vector<Span<const Link>> links_;  // likewise, in these:
+  std::vector<std::vector<Link>> parts_;
+  size_t link_count_ = 0;
   struct Place {
     float x, y, z;
     int32_t surface;

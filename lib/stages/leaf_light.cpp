@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "base/hash.h"
@@ -84,19 +83,20 @@ bool LeafLight::name() {
                                      if (!take_corners(leaves[k]))
                                        partly_sealed.push_back(leaves[k]);
                                    }));
-  const auto wants_its_middle = [&](NodeId leaf) {
-    return forest_.nodes[leaf].light_points == at_corners;
-  };
+  std::vector<uint8_t> wants_its_middle(leaves.size());
+  for_each_thing(tools_.team, leaves.size(), [&](size_t k) {
+    wants_its_middle[k] = forest_.nodes[leaves[k]].light_points == at_corners;
+  });
   std::vector<NodeId> wanted;
-  std::copy_if(leaves.begin(), leaves.end(), std::back_inserter(wanted), wants_its_middle);
-  int32_t next = corners_.add_middles(wanted, number_of_centroid);
   std::vector<int32_t> centroids(leaves.size(), -1);
-  for (size_t k = 0; k < leaves.size(); ++k)
-    if (wants_its_middle(leaves[k])) centroids[k] = next++;
-  std::vector<KeyedPoint> middles(leaves.size());
-  for_each_thing(tools_.team, leaves.size(),
-                 [&](size_t k) { middles[k] = keyed_middle_of(forest_, leaves[k]); });
-  state_.rays += open_cubes(grid_, middles, tools_);
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    if (!wants_its_middle[k]) continue;
+    centroids[k] = static_cast<int32_t>(corners_.asked()) + static_cast<int32_t>(wanted.size());
+    wanted.push_back(leaves[k]);
+  }
+  corners_.add_middles(wanted, number_of_centroid);
+  state_.rays += open_cubes(
+      grid_, leaves.size(), [&](size_t k) { return keyed_middle_of(forest_, leaves[k]); }, tools_);
   corners_.expect(corners_.asked());
   if (!corners_.sample()) return false;
   add_up_means(leaves, centroids);
@@ -201,7 +201,6 @@ void LeafLight::add_up(std::vector<Link>& all, const OrientedPoint& middle,
 // One run of links for each leaf, so that sweeps need no corners.
 void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
                              const std::vector<int32_t>& centroids) {
-  const CornerLight& direct = state_.direct;
   const int64_t count = static_cast<int64_t>(leaves.size());
   const int64_t tasks = (count + leaves_of_a_task - 1) / leaves_of_a_task;
   struct Result {
@@ -219,10 +218,9 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
       const Shares shares = shares_of_mean(leaves[k], centroids[k]);
       const OrientedPoint middle = middle_of(forest_, leaves[k]);
       for (int p = 0; p < shares.count; ++p)
-        for (uint32_t l = direct.first[shares.number[p]]; l < direct.first[shares.number[p] + 1];
-             ++l)
-          all.push_back({direct.links[l].source,
-                         static_cast<float>(shares.weight[p] * direct.links[l].weight)});
+        for (const Link& link : corners_.links_of(shares.number[p]))
+          all.push_back({link.source,
+                         static_cast<float>(shares.weight[p] * static_cast<double>(link.weight))});
       add_up(all, middle, r.links);
       r.end.push_back(r.links.size());
     }

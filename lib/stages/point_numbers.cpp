@@ -9,18 +9,30 @@
 namespace hrad {
 
 void number_points_by_leaves(CornerLight& direct, const std::function<bool(NodeId leaf)>& keep_leaf,
-                             const std::function<bool(int32_t point, const Link&)>& keep_link,
-                             ThreadTeam* team) {
+                             const std::function<bool(int32_t point, const Link&)>& keep_link) {
+  number_points_by_leaves(
+      direct, direct.point_count(), keep_leaf,
+      [&](int32_t point, std::vector<Link>& links) {
+        for (const Link& link : direct.links_of_point(point))
+          if (keep_link(point, link)) links.push_back(link);
+      },
+      nullptr);
+}
+
+void number_points_by_leaves(
+    CornerLight& direct, size_t points, const std::function<bool(NodeId leaf)>& keep_leaf,
+    const std::function<void(int32_t point, std::vector<Link>& links)>& take_links,
+    ThreadTeam* team) {
   constexpr int32_t unnamed = -1;
-  std::vector<int32_t> number(direct.point_count(), unnamed), order;
+  std::vector<int32_t> number(points, unnamed), order;
   for (size_t id = 0; id < direct.of_leaf.size(); ++id) {
-    auto& points = direct.of_leaf[id];
-    if (points[0] < 0) continue;
+    auto& named = direct.of_leaf[id];
+    if (named[0] < 0) continue;
     if (!keep_leaf(static_cast<NodeId>(id))) {
-      points = {-1, -1, -1};
+      named = {-1, -1, -1};
       continue;
     }
-    for (int32_t& point : points) {
+    for (int32_t& point : named) {
       int32_t& given = number[static_cast<size_t>(point)];
       if (given == unnamed) {
         given = static_cast<int32_t>(order.size());
@@ -34,8 +46,7 @@ void number_points_by_leaves(CornerLight& direct, const std::function<bool(NodeI
   const auto keep_some = [&](size_t piece, size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
       const size_t before = kept[piece].size();
-      for (const Link& link : direct.links_of_point(order[k]))
-        if (keep_link(order[k], link)) kept[piece].push_back(link);
+      take_links(order[k], kept[piece]);
       first[k + 1] = static_cast<uint32_t>(kept[piece].size() - before);
     }
   };

@@ -30,8 +30,8 @@ class RowMesh {
   // Of the work of linking, the share that build() is: guessed once it has begun.
   double share_of_work() const { return share_; }
 
-  // Drops the points and links that no leaf needs: the mesh is as it is to be.
-  void drop_what_is_unnamed() { corners_.drop_what_is_unnamed(); }
+  // Keeps the points and links that leaves need: the mesh is as it is to be.
+  void keep_what_is_named() { corners_.keep_what_is_named(); }
 
  private:
   bool is_mine(NodeId id) const;

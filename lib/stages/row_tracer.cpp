@@ -85,17 +85,36 @@ class RowTracer {
   std::vector<NodeId> hits_;
 };
 
-// The rows of the cells from `first` on.
-void put(State& state, ThreadTeam& team, const LinkStep& step, const std::vector<NodeId>& cells,
-         int64_t first) {
+// rows: of the cells from `first` on.
+void put(State& state, const StageTools& tools, const std::vector<Span<const Link>>& rows,
+         const std::vector<NodeId>& cells, int64_t first) {
   std::vector<LinkTable::NewRun> runs;
+  for (Span<const Link> row : rows) {
+    const NodeId cell = cells[static_cast<size_t>(first++)];
+    if (tools.exchange.mine(state.forest.nodes[cell].surface)) runs.push_back({cell, row});
+  }
+  state.links.replace(std::move(runs), &tools.team);
+}
+
+// Of a step, which has the rows one after the other.
+std::vector<Span<const Link>> rows_of(const LinkStep& step) {
+  std::vector<Span<const Link>> rows;
   const Link* next = step.links.data();
   for (uint32_t count : step.counts) {
-    runs.push_back({cells[static_cast<size_t>(first++)], {next, count}});
+    rows.push_back({next, count});
     next += count;
   }
-  state.links.replace(std::move(runs), &team);
-  state.rays += step.rays;
+  return rows;
+}
+
+LinkStep step_of(const std::vector<std::vector<Link>>& rows, int64_t rays) {
+  LinkStep step;
+  step.rays = rays;
+  for (const std::vector<Link>& row : rows) {
+    step.counts.push_back(static_cast<uint32_t>(row.size()));
+    step.links.insert(step.links.end(), row.begin(), row.end());
+  }
+  return step;
 }
 
 }  // namespace
@@ -114,7 +133,8 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     };
     if (const LinkStep* done =
             state.journal.done(static_cast<size_t>(end - first), false, is_element)) {
-      put(state, tools.team, *done, cells, first);
+      put(state, tools, rows_of(*done), cells, first);
+      state.rays += done->rays;
       memory.settle();
       continue;
     }
@@ -145,15 +165,11 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
         });
     going_on = tools.exchange.all_go_on(going_on);
     if (!going_on) break;
-    LinkStep step;
-    for (int64_t r : rays) step.rays += r;
-    for (std::vector<Link>& row : rows) {
-      step.counts.push_back(static_cast<uint32_t>(row.size()));
-      step.links.insert(step.links.end(), row.begin(), row.end());
-      row = std::vector<Link>();
-    }
-    put(state, tools.team, step, cells, first);
-    state.journal.record(std::move(step));
+    int64_t all_rays = 0;
+    for (int64_t r : rays) all_rays += r;
+    state.rays += all_rays;
+    put(state, tools, {rows.begin(), rows.end()}, cells, first);
+    if (state.journal.recording) state.journal.record(step_of(rows, all_rays));
     memory.settle();
   }
   if (going_on) tools.exchange.ask_for_sources(state);
