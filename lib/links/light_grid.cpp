@@ -87,18 +87,26 @@ size_t LightGrid::add_cubes(Grid& grid, const std::vector<OrientedPoint>& points
   const size_t before = grid.cubes.size();
   std::vector<uint64_t> key(points.size());
   for_each_thing(team, key.size(), [&](size_t k) { key[k] = key_of(grid, points[k]); });
-  size_t cube = 0;
+  std::vector<uint32_t> count;  // of the points of each new cube
+  std::vector<int32_t> cube(key.size());
   for (size_t k = 0; k < key.size(); ++k) {
-    if (k == 0 || key[k] != key[k - 1]) {  // neighbours mostly lie in the same
+    if (k > 0 && key[k] == key[k - 1]) {  // neighbours mostly lie in the same
+      cube[k] = cube[k - 1];
+    } else {
       int32_t& number = grid.number.at(key[k]);
       if (number == NumberTable::none) {
-        number = static_cast<int32_t>(grid.cubes.size());
-        grid.cubes.emplace_back();
+        number = static_cast<int32_t>(before + count.size());
+        count.push_back(0);
       }
-      cube = static_cast<size_t>(number);
+      cube[k] = number;
     }
-    if (cube >= before) grid.cubes[cube].points.push_back(static_cast<int32_t>(k));
+    if (static_cast<size_t>(cube[k]) >= before) ++count[static_cast<size_t>(cube[k]) - before];
   }
+  grid.cubes.resize(before + count.size());
+  for (size_t c = 0; c < count.size(); ++c) grid.cubes[before + c].points.reserve(count[c]);
+  for (size_t k = 0; k < key.size(); ++k)
+    if (static_cast<size_t>(cube[k]) >= before)
+      grid.cubes[static_cast<size_t>(cube[k])].points.push_back(static_cast<int32_t>(k));
   return before;
 }
 

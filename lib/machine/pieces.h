@@ -38,13 +38,23 @@ void for_each_thing(ThreadTeam& team, size_t count, const Body& body) {
 
 // Lists one after the other.
 template <class T>
-std::vector<T> joined(std::vector<std::vector<T>>& lists) {
+std::vector<T> joined(ThreadTeam& team, std::vector<std::vector<T>>& lists) {
   if (lists.size() == 1) return std::move(lists.front());
-  size_t count = 0;
-  for (const std::vector<T>& list : lists) count += list.size();
+  std::vector<size_t> first(lists.size() + 1, 0);
+  for (size_t k = 0; k < lists.size(); ++k) first[k + 1] = first[k] + lists[k].size();
   std::vector<T> all;
-  all.reserve(count);
-  for (const std::vector<T>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  if (team.size() == 1 || first.back() < 64 * things_of_a_piece) {
+    all.reserve(first.back());
+    for (const std::vector<T>& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+  }
+  all.resize(first.back());
+  for_each_piece(
+      team, lists.size(),
+      [&](size_t k, size_t, size_t) {
+        std::copy(lists[k].begin(), lists[k].end(), all.data() + first[k]);
+      },
+      1);
   return all;
 }
 
@@ -55,7 +65,7 @@ std::vector<T> gathered(ThreadTeam& team, size_t count, const Body& body) {
   for_each_piece(team, count, [&](size_t piece, size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) body(k, lists[piece]);
   });
-  return joined(lists);
+  return joined(team, lists);
 }
 
 }  // namespace hrad

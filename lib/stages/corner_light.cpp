@@ -15,15 +15,13 @@
 namespace hrad {
 namespace {
 
-constexpr int64_t corners_of_a_task = 64;
+constexpr size_t corners_of_a_task = 64;
 // Sampled together, a second's work: what a stop in their midst loses.
 constexpr size_t corners_of_a_step = 16384;
 // Corners are moved into their patch by this share of the way to its middle, so that none lies in
 // the plane of a wall, and by so many ray offsets at the most.
 constexpr double inwards = 1e-3;
 constexpr double most_offsets = 50;
-constexpr int tries_for_an_exposed_point = 64;
-constexpr int steps_to_a_border = 8;
 constexpr double sealed = -1;
 
 void lattice_points(const Node& node, PointsOf which, LatticePoint point[3]) {
@@ -32,25 +30,6 @@ void lattice_points(const Node& node, PointsOf which, LatticePoint point[3]) {
   lattice_corners(node, corner);
   for (int c = 0; c < 3; ++c)
     point[c] = which == PointsOf::corners ? corner[c] : middle(corner[c], corner[(c + 1) % 3]);
-}
-
-// Three points that have the mean of every quadratic field over a trapezoid whose parallel sides
-// run from a to b and from a_far to b_far: its centroid and second moments are theirs.
-void points_of_trapezoid(Vec3 a, Vec3 b, Vec3 a_far, Vec3 b_far, Vec3 place[3]) {
-  const Vec3 near = (a + b) * 0.5, far = (a_far + b_far) * 0.5, height = far - near;
-  const double near_half = length(b - a) / 2, far_half = length(b_far - a_far) / 2;
-  const double sum = near_half + far_half;
-  if (!(sum > 0)) {
-    place[0] = place[1] = place[2] = near;
-    return;
-  }
-  const Vec3 middle = near + height * ((near_half + 2 * far_half) / (3 * sum));
-  const Vec3 along = near_half > 0 ? (b - a) * (1 / (2 * near_half)) : Vec3{0, 0, 0};
-  const double across = std::sqrt(1 + 2 * near_half * far_half / (sum * sum)) / 6;
-  const double beside = std::sqrt(near_half * near_half + far_half * far_half) / 2;
-  place[0] = middle - height * across - along * beside;
-  place[1] = middle - height * across + along * beside;
-  place[2] = middle + height * (2 * across);
 }
 
 }  // namespace
@@ -146,140 +125,110 @@ bool CornerSampler::sample() {
         return KeyedPoint{wanted_[k].surface, wanted_[k].key, point_of(wanted_[k])};
       },
       tools_);
-  bool going_on = true;
-  for (size_t first = 0; first < count && going_on; first += corners_of_a_step)
-    going_on = sample_some(first, std::min(count, first + corners_of_a_step));
-  if (!tools_.exchange.all_go_on(going_on)) return false;
-  const size_t before = place_.size();
-  place_.resize(before + wanted_.size());
-  for_each_thing(tools_.team, wanted_.size(), [&](size_t k) {
+  const size_t before = value_.size();
+  value_.resize(before + count);
+  links_.resize(before + count);
+  place_.resize(before + count);
+  for_each_thing(tools_.team, count, [&](size_t k) {
     const Wanted& wanted = wanted_[k];
     place_[before + k] = {static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
                           static_cast<float>(wanted.place.z), wanted.surface};
   });
+  bool going_on = true;
+  for (size_t first = 0; first < count && going_on; first += corners_of_a_step)
+    going_on = sample_some(before + first, before + std::min(count, first + corners_of_a_step));
+  if (!tools_.exchange.all_go_on(going_on)) return false;
   wanted_.clear();
   count_memory();
   return true;
 }
 
-// Those from first to end-1, unless they were sampled before.
+// The points from first to end-1, unless they were sampled before.
 bool CornerSampler::sample_some(size_t first, size_t end) {
   const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
   if (const LinkStep* done = state_.journal.done(end - first, true, is_emitter)) {
-    put(*done);
+    put(first, *done);
     return true;
   }
-  const int64_t count = static_cast<int64_t>(end - first);
-  const int64_t tasks = (count + corners_of_a_task - 1) / corners_of_a_task;
-  std::vector<LinkStep> results(static_cast<size_t>(tasks));
+  const size_t first_wanted = value_.size() - wanted_.size(), first_part = parts_.size();
+  const size_t tasks = pieces_of(end - first, corners_of_a_task);
+  parts_.resize(first_part + tasks);
+  std::vector<int64_t> rays(tasks, 0);
   const bool going_on = tools_.team.for_each(
-      tasks,
+      static_cast<int64_t>(tasks),
       [&](int64_t task, int) {
-        LinkStep& r = results[task];
-        const int64_t last = std::min(count, (task + 1) * corners_of_a_task);
-        for (int64_t at = task * corners_of_a_task; at < last; ++at) {
-          const size_t k = first + static_cast<size_t>(at);
-          const Wanted& wanted = wanted_[k];
-          const size_t before = r.links.size();
+        std::vector<Link>& links = parts_[first_part + static_cast<size_t>(task)];
+        size_t count_of[corners_of_a_task] = {};
+        const size_t from = first + static_cast<size_t>(task) * corners_of_a_task;
+        const size_t to = std::min(end, from + corners_of_a_task);
+        for (size_t k = from; k < to; ++k) {
+          const Wanted& wanted = wanted_[k - first_wanted];
+          const size_t before = links.size();
           double value = sealed;
           if (!is_sealed(wanted.surface, wanted.place)) {
-            r.rays += light_.sample(point_of(wanted), wanted.key, r.links);
+            rays[task] += light_.sample(point_of(wanted), wanted.key, links);
             value = 0;
-            for (size_t l = before; l < r.links.size(); ++l)
-              value +=
-                  static_cast<double>(r.links[l].weight) * brightness_.of_node[r.links[l].source];
+            for (size_t l = before; l < links.size(); ++l)
+              value += static_cast<double>(links[l].weight) * brightness_.of_node[links[l].source];
           }
-          r.values.push_back(static_cast<float>(value));
-          r.counts.push_back(static_cast<uint32_t>(r.links.size() - before));
+          value_[k] = static_cast<float>(value);
+          count_of[k - from] = links.size() - before;
         }
-        r.links.shrink_to_fit();
+        links.shrink_to_fit();
+        const Link* next = links.data();
+        for (size_t k = from; k < to; next += count_of[k++ - from])
+          links_[k] = {next, count_of[k - from]};
       },
       [&](int64_t done) {
-        const double known = static_cast<double>(value_.size()) +
-                             static_cast<double>(done * count) / static_cast<double>(tasks);
+        const double known = static_cast<double>(first) + static_cast<double>(done) *
+                                                              static_cast<double>(end - first) /
+                                                              static_cast<double>(tasks);
         return tools_.progress(known / static_cast<double>(std::max(expected_, asked())));
       });
   if (!going_on) return false;
-  if (state_.journal.recording) {
-    LinkStep step;
-    for (const LinkStep& r : results) step.append(r);
-    state_.journal.record(std::move(step));
-  }
-  for (LinkStep& r : results) put(std::move(r));
+  int64_t all_rays = 0;
+  for (int64_t r : rays) all_rays += r;
+  state_.rays += all_rays;
+  sampled_ = end;
+  for (size_t part = first_part; part < parts_.size(); ++part) count_links(parts_[part].size());
+  if (state_.journal.recording) state_.journal.record(step_of(first, end, all_rays));
   return true;
 }
 
-void CornerSampler::put(LinkStep step) {
-  const Link* next = step.links.data();
-  for (uint32_t count : step.counts) {
-    links_.push_back({next, count});
-    next += count;
+LinkStep CornerSampler::step_of(size_t first, size_t end, int64_t rays) const {
+  LinkStep step;
+  step.rays = rays;
+  step.values.assign(&value_[first], &value_[first] + (end - first));
+  for (size_t k = first; k < end; ++k) {
+    step.counts.push_back(static_cast<uint32_t>(links_[k].size()));
+    step.links.insert(step.links.end(), links_[k].begin(), links_[k].end());
   }
-  value_.insert(value_.end(), step.values.begin(), step.values.end());
+  return step;
+}
+
+// Of the points from `first` on.
+void CornerSampler::put(size_t first, const LinkStep& step) {
+  parts_.push_back(step.links);
+  const Link* next = parts_.back().data();
+  for (size_t k = 0; k < step.counts.size(); ++k) {
+    value_[first + k] = step.values[k];
+    links_[first + k] = {next, step.counts[k]};
+    next += step.counts[k];
+  }
+  sampled_ = first + step.counts.size();
   state_.rays += step.rays;
-  link_count_ += step.links.size();
+  count_links(step.links.size());
+}
+
+void CornerSampler::count_links(size_t more) {
+  link_count_ += more;
   if (link_count_ > 0xffffffffu)
     fail(Status::memory,
          "more than 4,294,967,295 links from bright emitters: use a larger accuracy");
-  parts_.push_back(std::move(step.links));
 }
 
 OrientedPoint CornerSampler::point_of(const Wanted& wanted) const {
   return {wanted.place, state_.forest.surfaces[wanted.surface].normal};
-}
-
-// The last exposed point on the way.
-Vec3 CornerSampler::border(int32_t surface, Vec3 exposed, Vec3 sealed) const {
-  for (int k = 0; k < steps_to_a_border; ++k) {
-    const Vec3 between = (exposed + sealed) * 0.5;
-    (is_sealed(surface, between) ? sealed : exposed) = between;
-  }
-  return exposed;
-}
-
-bool CornerSampler::points_of_exposed(NodeId id, const LatticePoint corner[3],
-                                      Vec3 place[3]) const {
-  const Node& node = state_.forest.nodes[id];
-  const int32_t surface = node.surface;
-  Vec3 open[3], shut[3];
-  int exposed = 0, sealed = 0;
-  for (int c = 0; c < 3; ++c) {
-    const Vec3 on = point_of(surface, corner[c]), within = moved_inwards(surface, on);
-    if (is_sealed(surface, within))
-      shut[sealed++] = on;
-    else
-      open[exposed++] = within;
-  }
-  if (exposed == 1 || exposed == 3) {
-    const Vec3 triangle[3] = {open[0], exposed == 3 ? open[1] : border(surface, open[0], shut[0]),
-                              exposed == 3 ? open[2] : border(surface, open[0], shut[1])};
-    const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) * (1.0 / 3);
-    for (int c = 0; c < 3; ++c) place[c] = (triangle[c] + middle) * 0.5;
-  } else if (exposed == 2) {
-    points_of_trapezoid(open[0], open[1], border(surface, open[0], shut[0]),
-                        border(surface, open[1], shut[0]), place);
-  }
-  Vec3 somewhere;
-  bool found = false;
-  for (int c = 0; c < 3; ++c) {
-    if (exposed > 0 && !is_sealed(surface, place[c])) continue;
-    if (!found && !exposed_within(node, &somewhere)) return false;
-    found = true;
-    place[c] = somewhere;
-  }
-  return true;
-}
-
-bool CornerSampler::exposed_within(const Node& node, Vec3* place) const {
-  const Triangle corners = state_.forest.triangle(node);
-  const uint64_t key = mix(key_of(state_.forest, node), seed_, 0x77697468u);
-  for (int k = 0; k < tries_for_an_exposed_point; ++k) {
-    double uv[2];
-    spread_point(mix(key, static_cast<uint64_t>(k / 16)), k % 16, uv);
-    *place = corners.at(uv[0], uv[1]);
-    if (!is_sealed(node.surface, *place)) return true;
-  }
-  return false;
 }
 
 void CornerSampler::keep_what_is_named() {

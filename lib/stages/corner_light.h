@@ -30,7 +30,7 @@ class CornerSampler {
   // For the progress that sample() reports: how many points there will be in all, roughly; and how
   // many have been asked for so far.
   void expect(int64_t points) { expected_ = points; }
-  int64_t asked() const { return static_cast<int64_t>(value_.size() + wanted_.size()); }
+  int64_t asked() const { return static_cast<int64_t>(sampled_ + wanted_.size()); }
   // Samples what was asked for since the last time; false: stopped.
   bool sample();
   // Of a sampled corner: its light in units of the scene's mean irradiance, negative when it is
@@ -68,7 +68,9 @@ class CornerSampler {
   Wanted own_of(NodeId element, int which, Vec3 place) const;
   OrientedPoint point_of(const Wanted& wanted) const;
   bool sample_some(size_t first, size_t end);
-  void put(LinkStep step);
+  void put(size_t first, const LinkStep& step);
+  LinkStep step_of(size_t first, size_t end, int64_t rays) const;
+  void count_links(size_t more);
   void count_memory();
   Vec3 point_of(int32_t surface, LatticePoint point) const;
   Vec3 moved_inwards(int32_t surface, Vec3 on) const;
@@ -84,16 +86,17 @@ class CornerSampler {
   const uint64_t seed_;
   CornerNumbers number_;
   std::vector<Wanted> wanted_;
-  std::vector<float> value_;             // per sampled point
-  std::vector<Span<const Link>> links_;  // likewise, in these:
-  std::vector<std::vector<Link>> parts_;
-  size_t link_count_ = 0;
+  size_t sampled_ = 0;        // points that have been
+  std::vector<float> value_;  // per point, as what follows
+  std::vector<Span<const Link>> links_;
   struct Place {
     float x, y, z;
     int32_t surface;
   };
-  std::vector<Place> place_;  // per sampled point, roughly
-  StageMemory memory_;        // of all these
+  std::vector<Place> place_;              // roughly
+  std::vector<std::vector<Link>> parts_;  // what the links lie in
+  size_t link_count_ = 0;
+  StageMemory memory_;  // of all these
   int64_t counted_ = 0;
   int64_t expected_ = 0;
 };

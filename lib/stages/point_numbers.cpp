@@ -42,7 +42,7 @@ void number_points_by_leaves(
     }
   }
   std::vector<uint32_t> first(order.size() + 1, 0);
-  std::vector<std::vector<Link>> kept(pieces_of(order.size()));
+  std::vector<std::vector<Link>> kept(std::max<size_t>(1, team ? pieces_of(order.size()) : 1));
   const auto keep_some = [&](size_t piece, size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
       const size_t before = kept[piece].size();
@@ -52,7 +52,7 @@ void number_points_by_leaves(
   };
   if (team)
     for_each_piece(*team, order.size(), keep_some);
-  else if (!order.empty())
+  else
     keep_some(0, 0, order.size());
   for (size_t k = 0; k < order.size(); ++k) first[k + 1] += first[k];
   size_t own = 0;
@@ -62,7 +62,7 @@ void number_points_by_leaves(
   direct.own.resize(own);
   std::sort(direct.own.begin(), direct.own.end(),
             [](const auto& a, const auto& b) { return a.number < b.number; });
-  direct.links = joined(kept);
+  direct.links = team ? joined(*team, kept) : std::move(kept.front());
   direct.first = std::move(first);
 }
 

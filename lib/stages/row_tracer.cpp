@@ -107,10 +107,10 @@ std::vector<Span<const Link>> rows_of(const LinkStep& step) {
   return rows;
 }
 
-LinkStep step_of(const std::vector<std::vector<Link>>& rows, int64_t rays) {
+LinkStep step_of(const std::vector<Span<const Link>>& rows, int64_t rays) {
   LinkStep step;
   step.rays = rays;
-  for (const std::vector<Link>& row : rows) {
+  for (Span<const Link> row : rows) {
     step.counts.push_back(static_cast<uint32_t>(row.size()));
     step.links.insert(step.links.end(), row.begin(), row.end());
   }
@@ -140,21 +140,28 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     }
     const int64_t tasks = (end - first + rows_of_a_task - 1) / rows_of_a_task;
     std::vector<int64_t> rays(static_cast<size_t>(tasks), 0);
-    std::vector<std::vector<Link>> rows(static_cast<size_t>(end - first));
+    std::vector<std::vector<Link>> links_of_task(static_cast<size_t>(tasks));
+    std::vector<Span<const Link>> rows(static_cast<size_t>(end - first));  // in these
     going_on = tools.team.for_each(
         tasks,
         [&](int64_t task, int) {
           RowTracer tracer(state, tools, settings, grid);
-          std::vector<Link> links;
-          int64_t bytes = 0;
+          std::vector<Link>& links = links_of_task[task];
+          size_t count_of[rows_of_a_task] = {};
           const int64_t from = first + task * rows_of_a_task;
-          for (int64_t k = from; k < std::min(end, from + rows_of_a_task); ++k) {
-            links.clear();
-            if (!tools.exchange.mine(forest.nodes[cells[k]].surface)) continue;
-            if (forest.nodes[cells[k]].exposed > 0) tracer.trace(cells[k], rays_of_cell[k], links);
-            rows[k - first].assign(links.begin(), links.end());
-            bytes += static_cast<int64_t>(links.size() * sizeof(Link));
+          const int64_t to = std::min(end, from + rows_of_a_task);
+          for (int64_t k = from; k < to; ++k) {
+            const Node& node = forest.nodes[cells[k]];
+            const size_t before = links.size();
+            if (tools.exchange.mine(node.surface) && node.exposed > 0)
+              tracer.trace(cells[k], rays_of_cell[k], links);
+            count_of[k - from] = links.size() - before;
           }
+          links.shrink_to_fit();
+          const Link* next = links.data();
+          for (int64_t k = from; k < to; next += count_of[k++ - from])
+            rows[k - first] = {next, count_of[k - from]};
+          const int64_t bytes = static_cast<int64_t>(links.size() * sizeof(Link));
           rays[task] = tracer.rays;
           memory.take(2 * bytes, "rows of rays");  // in two places for a while
         },
@@ -168,7 +175,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     int64_t all_rays = 0;
     for (int64_t r : rays) all_rays += r;
     state.rays += all_rays;
-    put(state, tools, {rows.begin(), rows.end()}, cells, first);
+    put(state, tools, rows, cells, first);
     if (state.journal.recording) state.journal.record(step_of(rows, all_rays));
     memory.settle();
   }
