@@ -1,5 +1,4 @@
-// Names for the corners of elements that neighbouring surfaces agree on: exact, by lattice
-// coordinates and shared edges, never by comparing rounded positions. Floor 5 (hierarchy).
+// Numbers for the corners of elements that neighbouring surfaces agree on. Floor 5 (hierarchy).
 #pragma once
 
 #include <cstdint>
@@ -7,13 +6,13 @@
 #include <vector>
 
 #include "base/hash.h"
-#include "hierarchy/lattice.h"
+#include "hierarchy/corner_names.h"
 
 namespace hrad {
 
 class CornerIndex {
  public:
-  explicit CornerIndex(const Forest& forest);
+  explicit CornerIndex(const Forest& forest) : names_(forest) {}
 
   // The corner's number, a new one when it was not met before.
   int32_t number(int32_t surface, LatticePoint point);
@@ -23,18 +22,15 @@ class CornerIndex {
 
  private:
   struct Key {
-    int64_t place, along;
-    bool operator==(const Key& o) const { return place == o.place && along == o.along; }
+    int32_t plane;
+    uint64_t name;
+    bool operator==(const Key& o) const { return plane == o.plane && name == o.name; }
   };
   struct KeyHash {
-    size_t operator()(const Key& k) const {
-      return mix(static_cast<uint64_t>(k.place), static_cast<uint64_t>(k.along));
-    }
+    size_t operator()(const Key& k) const { return mix(static_cast<uint64_t>(k.plane), k.name); }
   };
-  Key key_of_point(int32_t surface, LatticePoint point) const;
 
-  std::vector<int32_t> plane_;                         // per surface: surfaces joined in one plane
-  std::vector<int32_t> vertex_;                        // per surface and corner: welded vertex
+  CornerNames names_;
   std::unordered_map<Key, int32_t, KeyHash> numbers_;  // looked up only, never walked through
 };
 

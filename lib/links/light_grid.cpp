@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/hash.h"
+#include "machine/pieces.h"
 #include "machine/sharing.h"
 
 namespace hrad {
@@ -49,7 +51,10 @@ LightGrid::LightGrid(const Emitters& emitters, const VisibilityEngine& engine, d
       fine_{size, fine_packets, {}, {}} {}
 
 const std::vector<LightGrid::Candidate>& LightGrid::at(const OrientedPoint& point) const {
-  return fine_.cubes[fine_.number.at(key_of(fine_, point))].candidates;
+  const int32_t number = fine_.number.find(key_of(fine_, point));
+  if (number == NumberTable::none)
+    fail(Status::internal, "light was asked for in a cube that isn't open");
+  return fine_.cubes[static_cast<size_t>(number)].candidates;
 }
 
 bool LightGrid::by_links(int32_t emitter, const OrientedPoint& middle,
@@ -77,15 +82,31 @@ uint64_t LightGrid::key_of(const Grid& grid, const OrientedPoint& p) const {
 }
 
 // Gives the points to the cubes that are new; returns the number of the first of those.
-size_t LightGrid::add_cubes(Grid& grid, const std::vector<OrientedPoint>& points) const {
+size_t LightGrid::add_cubes(Grid& grid, const std::vector<OrientedPoint>& points,
+                            ThreadTeam& team) const {
   const size_t before = grid.cubes.size();
-  for (size_t k = 0; k < points.size(); ++k) {
-    const auto found =
-        grid.number.emplace(key_of(grid, points[k]), static_cast<int32_t>(grid.cubes.size())).first;
-    if (static_cast<size_t>(found->second) == grid.cubes.size()) grid.cubes.emplace_back();
-    if (static_cast<size_t>(found->second) >= before)
-      grid.cubes[found->second].points.push_back(static_cast<int32_t>(k));
+  std::vector<uint64_t> key(points.size());
+  for_each_thing(team, key.size(), [&](size_t k) { key[k] = key_of(grid, points[k]); });
+  std::vector<uint32_t> count;  // of the points of each new cube
+  std::vector<int32_t> cube(key.size());
+  for (size_t k = 0; k < key.size(); ++k) {
+    if (k > 0 && key[k] == key[k - 1]) {  // neighbours mostly lie in the same
+      cube[k] = cube[k - 1];
+    } else {
+      int32_t& number = grid.number.at(key[k]);
+      if (number == NumberTable::none) {
+        number = static_cast<int32_t>(before + count.size());
+        count.push_back(0);
+      }
+      cube[k] = number;
+    }
+    if (static_cast<size_t>(cube[k]) >= before) ++count[static_cast<size_t>(cube[k]) - before];
   }
+  grid.cubes.resize(before + count.size());
+  for (size_t c = 0; c < count.size(); ++c) grid.cubes[before + c].points.reserve(count[c]);
+  for (size_t k = 0; k < key.size(); ++k)
+    if (static_cast<size_t>(cube[k]) >= before)
+      grid.cubes[static_cast<size_t>(cube[k])].points.push_back(static_cast<int32_t>(k));
   return before;
 }
 
@@ -103,11 +124,12 @@ std::vector<int32_t> LightGrid::spread_over(const std::vector<int32_t>& fine) co
 }
 
 int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm) {
-  const size_t first_coarse = add_cubes(coarse_, points), first_fine = add_cubes(fine_, points);
+  const size_t first_coarse = add_cubes(coarse_, points, team);
+  const size_t first_fine = add_cubes(fine_, points, team);
   std::vector<std::vector<int32_t>> within(coarse_.cubes.size() - first_coarse);
   for (size_t k = first_fine; k < fine_.cubes.size(); ++k) {
     Cube& cube = fine_.cubes[k];
-    cube.around = coarse_.number.at(key_of(coarse_, points[cube.points.front()]));
+    cube.around = coarse_.number.find(key_of(coarse_, points[cube.points.front()]));
     const size_t coarse = static_cast<size_t>(cube.around);
     if (coarse >= first_coarse) within[coarse - first_coarse].push_back(static_cast<int32_t>(k));
   }

@@ -5,9 +5,9 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "base/number_table.h"
 #include "links/emitters.h"
 #include "machine/comm.h"
 #include "machine/thread_team.h"
@@ -35,7 +35,7 @@ class LightGrid {
   int64_t open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm);
   // Whether the cube that a point lies in has yet to be opened.
   bool is_closed(const OrientedPoint& point) const {
-    return fine_.number.find(key_of(fine_, point)) == fine_.number.end();
+    return fine_.number.find(key_of(fine_, point)) == NumberTable::none;
   }
 
   struct Candidate {
@@ -59,13 +59,13 @@ class LightGrid {
   struct Grid {
     double size;
     int pilot_packets;
-    std::unordered_map<uint64_t, int32_t> number;  // looked up only
+    NumberTable number;
     std::vector<Cube> cubes;
   };
   enum class Seen { none, hidden, some };
   Vec3 corner_of(const Grid& grid, Vec3 place) const;  // in whole cubes from the scene's middle
   uint64_t key_of(const Grid& grid, const OrientedPoint& point) const;
-  size_t add_cubes(Grid& grid, const std::vector<OrientedPoint>& points) const;
+  size_t add_cubes(Grid& grid, const std::vector<OrientedPoint>& points, ThreadTeam& team) const;
   std::vector<int32_t> spread_over(const std::vector<int32_t>& fine) const;
   Seen seen_from(const Cube& cube, int32_t emitter) const;
   int64_t find_emitters(const std::vector<OrientedPoint>& points, const Grid& grid,

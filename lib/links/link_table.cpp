@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "machine/thread_team.h"
 
 namespace hrad {
 namespace {
@@ -64,33 +65,51 @@ void LinkTable::shrink_to_fit() {
   if (!blocks_.empty()) blocks_.back().shrink_to_fit();
 }
 
-void LinkTable::rebuild(size_t number, const std::vector<Span<const Link>>& runs) {
-  size_t total = 0;
-  for (const Span<const Link>& run : runs) total += run.size();
+// runs: those of receivers in this block, ascending.
+void LinkTable::rebuild(size_t number, Span<const NewRun> runs) {
+  const size_t begin = number * receivers_of_a_block;
+  const size_t end = std::min(first_.size(), begin + receivers_of_a_block);
+  size_t total = blocks_[number].size();
+  for (const NewRun& run : runs)
+    total += run.links.size() - (*this)[static_cast<size_t>(run.receiver)].links().size();
   std::vector<Link> made;
   made.reserve(total);
-  for (size_t k = 0; k < runs.size(); ++k) {
-    first_[number * receivers_of_a_block + k] = offset_in_block(made.size());
-    made.insert(made.end(), runs[k].begin(), runs[k].end());
+  const NewRun* next = runs.begin();
+  // The old run of k ends where that of k + 1 begins, which is overwritten later.
+  for (size_t k = begin; k < end; ++k) {
+    const bool is_new = next < runs.end() && static_cast<size_t>(next->receiver) == k;
+    const Span<const Link> links = is_new ? (next++)->links : (*this)[k].links();
+    first_[k] = offset_in_block(made.size());
+    made.insert(made.end(), links.begin(), links.end());
   }
   blocks_[number].swap(made);
 }
 
-void LinkTable::replace(std::vector<NewRun> runs) {
-  std::sort(runs.begin(), runs.end(),
-            [](const NewRun& a, const NewRun& b) { return a.receiver < b.receiver; });
-  std::vector<Span<const Link>> of_block;
-  for (size_t next = 0; next < runs.size();) {
-    const size_t block = static_cast<size_t>(runs[next].receiver) / receivers_of_a_block;
-    const size_t begin = block * receivers_of_a_block;
-    const size_t end = std::min(first_.size(), begin + receivers_of_a_block);
-    of_block.clear();
-    for (size_t k = begin; k < end; ++k) {
-      const bool is_new = next < runs.size() && static_cast<size_t>(runs[next].receiver) == k;
-      of_block.push_back(is_new ? runs[next++].links : (*this)[k].links());
-    }
-    rebuild(block, of_block);
+void LinkTable::replace(std::vector<NewRun> runs, ThreadTeam* team) {
+  const auto none_before_or_after = [&](const NewRun& run) {
+    return run.links.size() == 0 && (*this)[static_cast<size_t>(run.receiver)].count() == 0;
+  };
+  runs.erase(std::remove_if(runs.begin(), runs.end(), none_before_or_after), runs.end());
+  const auto by_receiver = [](const NewRun& a, const NewRun& b) { return a.receiver < b.receiver; };
+  if (!std::is_sorted(runs.begin(), runs.end(), by_receiver))
+    std::sort(runs.begin(), runs.end(), by_receiver);
+  std::vector<Span<const NewRun>> of_block;
+  const auto block_of = [&](size_t k) {
+    return static_cast<size_t>(runs[k].receiver) / receivers_of_a_block;
+  };
+  for (size_t first = 0, end; first < runs.size(); first = end) {
+    for (end = first + 1; end < runs.size() && block_of(end) == block_of(first);) ++end;
+    of_block.push_back({runs.data() + first, end - first});
   }
+  const auto rebuild_one = [&](int64_t k, int) {
+    const Span<const NewRun>& some = of_block[static_cast<size_t>(k)];
+    rebuild(static_cast<size_t>(some[0].receiver) / receivers_of_a_block, some);
+  };
+  const int64_t count = static_cast<int64_t>(of_block.size());
+  if (team)
+    team->for_each(count, rebuild_one);
+  else
+    for (int64_t k = 0; k < count; ++k) rebuild_one(k, 0);
 }
 
 }  // namespace hrad

@@ -10,6 +10,8 @@
 
 namespace hrad {
 
+class ThreadTeam;
+
 // The links of one receiver.
 class LinkRun {
  public:
@@ -55,15 +57,16 @@ class LinkTable {
   void append(Span<const Link> links);
   // After the last append().
   void shrink_to_fit();
-  // Gives these receivers new links, each at most once, in any order.
+  // Gives these receivers new links, each at most once, in any order: block by block, on the
+  // threads of a team if there is one.
   struct NewRun {
     NodeId receiver;
     Span<const Link> links;
   };
-  void replace(std::vector<NewRun> runs);
+  void replace(std::vector<NewRun> runs, ThreadTeam* team = nullptr);
 
  private:
-  void rebuild(size_t block, const std::vector<Span<const Link>>& runs);
+  void rebuild(size_t block, Span<const NewRun> runs);
 
   std::vector<uint32_t> first_;  // per receiver, within its block
   std::vector<std::vector<Link>> blocks_;

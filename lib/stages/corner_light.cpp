@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "links/element.h"
 #include "links/pair_samples.h"
+#include "machine/pieces.h"
 #include "stages/exchange.h"
 #include "stages/open_cubes.h"
 #include "stages/point_numbers.h"
@@ -14,46 +15,21 @@
 namespace hrad {
 namespace {
 
-constexpr int64_t corners_of_a_task = 64;
+constexpr size_t corners_of_a_task = 64;
 // Sampled together, a second's work: what a stop in their midst loses.
 constexpr size_t corners_of_a_step = 16384;
 // Corners are moved into their patch by this share of the way to its middle, so that none lies in
 // the plane of a wall, and by so many ray offsets at the most.
 constexpr double inwards = 1e-3;
 constexpr double most_offsets = 50;
-constexpr int tries_for_an_exposed_point = 64;
-constexpr int steps_to_a_border = 8;
 constexpr double sealed = -1;
 
-uint64_t key_of_corner(int32_t surface, LatticePoint p) {
-  return static_cast<uint64_t>(surface) << 32 | static_cast<uint64_t>(p.i) << 16 |
-         static_cast<uint64_t>(p.j);
-}
-
-uint32_t run_border(size_t links) {
-  if (links > 0xffffffffu)
-    fail(Status::memory,
-         "more than 4,294,967,295 links from bright emitters: use a larger accuracy");
-  return static_cast<uint32_t>(links);
-}
-
-// Three points that have the mean of every quadratic field over a trapezoid whose parallel sides
-// run from a to b and from a_far to b_far: its centroid and second moments are theirs.
-void points_of_trapezoid(Vec3 a, Vec3 b, Vec3 a_far, Vec3 b_far, Vec3 place[3]) {
-  const Vec3 near = (a + b) * 0.5, far = (a_far + b_far) * 0.5, height = far - near;
-  const double near_half = length(b - a) / 2, far_half = length(b_far - a_far) / 2;
-  const double sum = near_half + far_half;
-  if (!(sum > 0)) {
-    place[0] = place[1] = place[2] = near;
-    return;
-  }
-  const Vec3 middle = near + height * ((near_half + 2 * far_half) / (3 * sum));
-  const Vec3 along = near_half > 0 ? (b - a) * (1 / (2 * near_half)) : Vec3{0, 0, 0};
-  const double across = std::sqrt(1 + 2 * near_half * far_half / (sum * sum)) / 6;
-  const double beside = std::sqrt(near_half * near_half + far_half * far_half) / 2;
-  place[0] = middle - height * across - along * beside;
-  place[1] = middle - height * across + along * beside;
-  place[2] = middle + height * (2 * across);
+void lattice_points(const Node& node, PointsOf which, LatticePoint point[3]) {
+  if (which == PointsOf::half_way_to_the_middle) return half_way_points(node, point);
+  LatticePoint corner[3];
+  lattice_corners(node, corner);
+  for (int c = 0; c < 3; ++c)
+    point[c] = which == PointsOf::corners ? corner[c] : middle(corner[c], corner[(c + 1) % 3]);
 }
 
 }  // namespace
@@ -71,28 +47,47 @@ CornerSampler::CornerSampler(State& state, const StageTools& tools, const Direct
   state_.direct.first.push_back(0);
 }
 
-void CornerSampler::want(int32_t surface, LatticePoint point) {
-  const int32_t next = static_cast<int32_t>(value_.size() + wanted_.size());
-  if (!number_.emplace(key_of_corner(surface, point), next).second) return;
+void CornerSampler::want(const std::vector<ElementPoints>& all) {
+  std::vector<uint64_t> keys(3 * all.size());
+  for_each_thing(tools_.team, all.size(), [&](size_t k) {
+    const Node& node = state_.forest.nodes[all[k].element];
+    LatticePoint point[3];
+    lattice_points(node, all[k].which, point);
+    for (size_t c = 0; c < 3; ++c) keys[3 * k + c] = key_of_corner(node.surface, point[c]);
+  });
+  const std::vector<uint32_t> added = number_.add(keys, static_cast<int32_t>(asked()), tools_.team);
+  const size_t before = wanted_.size();
+  wanted_.resize(before + added.size());
+  for_each_thing(tools_.team, added.size(),
+                 [&](size_t k) { wanted_[before + k] = wanted_of(keys[added[k]]); });
+}
+
+CornerSampler::Wanted CornerSampler::wanted_of(uint64_t key) const {
+  const int32_t surface = surface_of_corner(key);
+  const LatticePoint point = point_of_corner(key);
   const Surface& s = state_.forest.surfaces[surface];
-  wanted_.push_back({surface, mix(key_of_corner(s.patch * 2 + s.side, point), seed_),
-                     moved_inwards(surface, point_of(surface, point))});
+  return {surface, mix(key_of_corner(s.patch * 2 + s.side, point), seed_),
+          moved_inwards(surface, point_of(surface, point))};
+}
+
+CornerSampler::Wanted CornerSampler::own_of(NodeId element, int which, Vec3 place) const {
+  const Node& node = state_.forest.nodes[element];
+  return {node.surface, mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(which)),
+          place};
 }
 
 int32_t CornerSampler::add(NodeId element, int which, Vec3 place) {
-  const Node& node = state_.forest.nodes[element];
-  const uint64_t key = mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(which));
-  wanted_.push_back({node.surface, key, place});
-  return static_cast<int32_t>(value_.size() + wanted_.size()) - 1;
+  wanted_.push_back(own_of(element, which, place));
+  return static_cast<int32_t>(asked()) - 1;
 }
 
-int32_t CornerSampler::number(int32_t surface, LatticePoint point) const {
-  return number_.at(key_of_corner(surface, point));
-}
-
-int32_t CornerSampler::find(int32_t surface, LatticePoint point) const {
-  const auto found = number_.find(key_of_corner(surface, point));
-  return found == number_.end() ? -1 : found->second;
+void CornerSampler::add_middles(const std::vector<NodeId>& elements, int which) {
+  const size_t before = wanted_.size();
+  wanted_.resize(before + elements.size());
+  for_each_thing(tools_.team, elements.size(), [&](size_t k) {
+    const Triangle t = state_.forest.triangle(state_.forest.nodes[elements[k]]);
+    wanted_[before + k] = own_of(elements[k], which, t.centroid());
+  });
 }
 
 Vec3 CornerSampler::point_of(int32_t surface, LatticePoint point) const {
@@ -114,154 +109,141 @@ bool CornerSampler::is_sealed(int32_t surface, Vec3 place) const {
 }
 
 void CornerSampler::count_memory() {
-  constexpr size_t bytes_of_a_number = 48;  // in the table that finds it
-  const size_t bytes = number_.size() * bytes_of_a_number + wanted_.capacity() * sizeof(Wanted) +
-                       value_.capacity() * sizeof value_[0] + place_.capacity() * sizeof(Place);
+  const size_t bytes = static_cast<size_t>(number_.bytes()) + wanted_.capacity() * sizeof(Wanted) +
+                       value_.capacity() * sizeof value_[0] + place_.capacity() * sizeof(Place) +
+                       links_.capacity() * sizeof links_[0] + link_count_ * sizeof(Link);
   memory_.take(static_cast<int64_t>(bytes) - counted_, "points at which direct light is known");
   counted_ = static_cast<int64_t>(bytes);
 }
 
 bool CornerSampler::sample() {
   count_memory();
-  std::vector<OrientedPoint> points;
-  std::vector<KeyedPoint> keyed;
-  for (const Wanted& wanted : wanted_) {
-    points.push_back({wanted.place, state_.forest.surfaces[wanted.surface].normal});
-    keyed.push_back({wanted.surface, wanted.key, points.back()});
-  }
-  state_.rays += open_cubes(grid_, keyed, tools_);
+  const size_t count = wanted_.size();
+  state_.rays += open_cubes(
+      grid_, count,
+      [&](size_t k) {
+        return KeyedPoint{wanted_[k].surface, wanted_[k].key, point_of(wanted_[k])};
+      },
+      tools_);
+  const size_t before = value_.size();
+  value_.resize(before + count);
+  links_.resize(before + count);
+  place_.resize(before + count);
+  for_each_thing(tools_.team, count, [&](size_t k) {
+    const Wanted& wanted = wanted_[k];
+    place_[before + k] = {static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
+                          static_cast<float>(wanted.place.z), wanted.surface};
+  });
   bool going_on = true;
-  for (size_t first = 0; first < points.size() && going_on; first += corners_of_a_step)
-    going_on = sample_some(points, first, std::min(points.size(), first + corners_of_a_step));
+  for (size_t first = 0; first < count && going_on; first += corners_of_a_step)
+    going_on = sample_some(before + first, before + std::min(count, first + corners_of_a_step));
   if (!tools_.exchange.all_go_on(going_on)) return false;
-  for (const Wanted& wanted : wanted_)
-    place_.push_back({static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
-                      static_cast<float>(wanted.place.z), wanted.surface});
   wanted_.clear();
   count_memory();
   return true;
 }
 
-// Those from first to end-1, unless they were sampled before.
-bool CornerSampler::sample_some(const std::vector<OrientedPoint>& points, size_t first,
-                                size_t end) {
+// The points from first to end-1, unless they were sampled before.
+bool CornerSampler::sample_some(size_t first, size_t end) {
   const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
   if (const LinkStep* done = state_.journal.done(end - first, true, is_emitter)) {
-    put(*done);
+    put(first, *done);
     return true;
   }
-  const int64_t count = static_cast<int64_t>(end - first);
-  const int64_t tasks = (count + corners_of_a_task - 1) / corners_of_a_task;
-  std::vector<LinkStep> results(static_cast<size_t>(tasks));
+  const size_t first_wanted = value_.size() - wanted_.size(), first_part = parts_.size();
+  const size_t tasks = pieces_of(end - first, corners_of_a_task);
+  parts_.resize(first_part + tasks);
+  std::vector<int64_t> rays(tasks, 0);
   const bool going_on = tools_.team.for_each(
-      tasks,
+      static_cast<int64_t>(tasks),
       [&](int64_t task, int) {
-        LinkStep& r = results[task];
-        const int64_t last = std::min(count, (task + 1) * corners_of_a_task);
-        for (int64_t at = task * corners_of_a_task; at < last; ++at) {
-          const size_t k = first + static_cast<size_t>(at);
-          const Wanted& wanted = wanted_[k];
-          const size_t before = r.links.size();
+        std::vector<Link>& links = parts_[first_part + static_cast<size_t>(task)];
+        size_t count_of[corners_of_a_task] = {};
+        const size_t from = first + static_cast<size_t>(task) * corners_of_a_task;
+        const size_t to = std::min(end, from + corners_of_a_task);
+        for (size_t k = from; k < to; ++k) {
+          const Wanted& wanted = wanted_[k - first_wanted];
+          const size_t before = links.size();
           double value = sealed;
           if (!is_sealed(wanted.surface, wanted.place)) {
-            r.rays += light_.sample(points[k], wanted.key, r.links);
+            rays[task] += light_.sample(point_of(wanted), wanted.key, links);
             value = 0;
-            for (size_t l = before; l < r.links.size(); ++l)
-              value +=
-                  static_cast<double>(r.links[l].weight) * brightness_.of_node[r.links[l].source];
+            for (size_t l = before; l < links.size(); ++l)
+              value += static_cast<double>(links[l].weight) * brightness_.of_node[links[l].source];
           }
-          r.values.push_back(static_cast<float>(value));
-          r.counts.push_back(static_cast<uint32_t>(r.links.size() - before));
+          value_[k] = static_cast<float>(value);
+          count_of[k - from] = links.size() - before;
         }
+        links.shrink_to_fit();
+        const Link* next = links.data();
+        for (size_t k = from; k < to; next += count_of[k++ - from])
+          links_[k] = {next, count_of[k - from]};
       },
       [&](int64_t done) {
-        const double known = static_cast<double>(value_.size()) +
-                             static_cast<double>(done * count) / static_cast<double>(tasks);
+        const double known = static_cast<double>(first) + static_cast<double>(done) *
+                                                              static_cast<double>(end - first) /
+                                                              static_cast<double>(tasks);
         return tools_.progress(known / static_cast<double>(std::max(expected_, asked())));
       });
   if (!going_on) return false;
+  int64_t all_rays = 0;
+  for (int64_t r : rays) all_rays += r;
+  state_.rays += all_rays;
+  sampled_ = end;
+  for (size_t part = first_part; part < parts_.size(); ++part) count_links(parts_[part].size());
+  if (state_.journal.recording) state_.journal.record(step_of(first, end, all_rays));
+  return true;
+}
+
+LinkStep CornerSampler::step_of(size_t first, size_t end, int64_t rays) const {
   LinkStep step;
-  for (LinkStep& r : results) {
-    step.append(r);
-    r = LinkStep{};
+  step.rays = rays;
+  step.values.assign(&value_[first], &value_[first] + (end - first));
+  for (size_t k = first; k < end; ++k) {
+    step.counts.push_back(static_cast<uint32_t>(links_[k].size()));
+    step.links.insert(step.links.end(), links_[k].begin(), links_[k].end());
   }
-  put(step);
-  state_.journal.record(std::move(step));
-  return true;
+  return step;
 }
 
-void CornerSampler::put(const LinkStep& step) {
-  CornerLight& direct = state_.direct;
-  size_t end = direct.links.size();
-  direct.links.insert(direct.links.end(), step.links.begin(), step.links.end());
-  for (uint32_t count : step.counts) direct.first.push_back(run_border(end += count));
-  value_.insert(value_.end(), step.values.begin(), step.values.end());
+// Of the points from `first` on.
+void CornerSampler::put(size_t first, const LinkStep& step) {
+  parts_.push_back(step.links);
+  const Link* next = parts_.back().data();
+  for (size_t k = 0; k < step.counts.size(); ++k) {
+    value_[first + k] = step.values[k];
+    links_[first + k] = {next, step.counts[k]};
+    next += step.counts[k];
+  }
+  sampled_ = first + step.counts.size();
   state_.rays += step.rays;
+  count_links(step.links.size());
 }
 
-// The last exposed point on the way.
-Vec3 CornerSampler::border(int32_t surface, Vec3 exposed, Vec3 sealed) const {
-  for (int k = 0; k < steps_to_a_border; ++k) {
-    const Vec3 between = (exposed + sealed) * 0.5;
-    (is_sealed(surface, between) ? sealed : exposed) = between;
-  }
-  return exposed;
+void CornerSampler::count_links(size_t more) {
+  link_count_ += more;
+  if (link_count_ > 0xffffffffu)
+    fail(Status::memory,
+         "more than 4,294,967,295 links from bright emitters: use a larger accuracy");
 }
 
-bool CornerSampler::points_of_exposed(NodeId id, const LatticePoint corner[3],
-                                      Vec3 place[3]) const {
-  const Node& node = state_.forest.nodes[id];
-  const int32_t surface = node.surface;
-  Vec3 open[3], shut[3];
-  int exposed = 0, sealed = 0;
-  for (int c = 0; c < 3; ++c) {
-    const Vec3 on = point_of(surface, corner[c]), within = moved_inwards(surface, on);
-    if (is_sealed(surface, within))
-      shut[sealed++] = on;
-    else
-      open[exposed++] = within;
-  }
-  if (exposed == 1 || exposed == 3) {
-    const Vec3 triangle[3] = {open[0], exposed == 3 ? open[1] : border(surface, open[0], shut[0]),
-                              exposed == 3 ? open[2] : border(surface, open[0], shut[1])};
-    const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) * (1.0 / 3);
-    for (int c = 0; c < 3; ++c) place[c] = (triangle[c] + middle) * 0.5;
-  } else if (exposed == 2) {
-    points_of_trapezoid(open[0], open[1], border(surface, open[0], shut[0]),
-                        border(surface, open[1], shut[0]), place);
-  }
-  Vec3 somewhere;
-  bool found = false;
-  for (int c = 0; c < 3; ++c) {
-    if (exposed > 0 && !is_sealed(surface, place[c])) continue;
-    if (!found && !exposed_within(node, &somewhere)) return false;
-    found = true;
-    place[c] = somewhere;
-  }
-  return true;
+OrientedPoint CornerSampler::point_of(const Wanted& wanted) const {
+  return {wanted.place, state_.forest.surfaces[wanted.surface].normal};
 }
 
-bool CornerSampler::exposed_within(const Node& node, Vec3* place) const {
-  const Triangle corners = state_.forest.triangle(node);
-  const uint64_t key = mix(key_of(state_.forest, node), seed_, 0x77697468u);
-  for (int k = 0; k < tries_for_an_exposed_point; ++k) {
-    double uv[2];
-    spread_point(mix(key, static_cast<uint64_t>(k / 16)), k % 16, uv);
-    *place = corners.at(uv[0], uv[1]);
-    if (!is_sealed(node.surface, *place)) return true;
-  }
-  return false;
-}
-
-void CornerSampler::drop_what_is_unnamed() {
+void CornerSampler::keep_what_is_named() {
   const Emitters& emitters = grid_.emitters();
   number_points_by_leaves(
-      state_.direct, [](NodeId) { return true; },
-      [&](int32_t point, const Link& link) {
+      state_.direct, value_.size(), [](NodeId) { return true; },
+      [&](int32_t point, std::vector<Link>& kept) {
         const Place& p = place_[static_cast<size_t>(point)];
-        return emitters.bright(emitters.all()[emitters.of_node(link.source)], {p.x, p.y, p.z},
-                               state_.forest.surfaces[p.surface].normal);
-      });
+        const Vec3 normal = state_.forest.surfaces[p.surface].normal;
+        for (const Link& link : links_of(point))
+          if (emitters.bright(emitters.all()[emitters.of_node(link.source)], {p.x, p.y, p.z},
+                              normal))
+            kept.push_back(link);
+      },
+      &tools_.team);
 }
 
 }  // namespace hrad

@@ -3,14 +3,21 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "hierarchy/lattice.h"
 #include "links/direct_light.h"
+#include "stages/corner_numbers.h"
 #include "stages/state_memory.h"
 
 namespace hrad {
+
+// Three points of an element.
+enum class PointsOf { corners, middles_of_edges, half_way_to_the_middle };
+struct ElementPoints {
+  NodeId element;
+  PointsOf which;
+};
 
 class CornerSampler {
  public:
@@ -18,34 +25,38 @@ class CornerSampler {
   CornerSampler(State& state, const StageTools& tools, const DirectLight& light, LightGrid& grid,
                 const Brightness& brightness, uint64_t seed);
 
-  // Asks for the light at a corner; asking twice is the same as once.
-  void want(int32_t surface, LatticePoint point);
+  // Asks for the light at these points; asking twice is the same as once.
+  void want(const std::vector<ElementPoints>& all);
   // For the progress that sample() reports: how many points there will be in all, roughly; and how
   // many have been asked for so far.
   void expect(int64_t points) { expected_ = points; }
-  int64_t asked() const { return static_cast<int64_t>(value_.size() + wanted_.size()); }
+  int64_t asked() const { return static_cast<int64_t>(sampled_ + wanted_.size()); }
   // Samples what was asked for since the last time; false: stopped.
   bool sample();
-  // Of a corner that was asked for.
-  int32_t number(int32_t surface, LatticePoint point) const;
   // Of a sampled corner: its light in units of the scene's mean irradiance, negative when it is
   // sealed.
   double value(int32_t number) const { return value_[number]; }
-  double value(int32_t surface, LatticePoint point) const { return value_[number(surface, point)]; }
+  double value(int32_t surface, LatticePoint point) const { return value_[find(surface, point)]; }
+  Span<const Link> links_of(int32_t number) const { return links_[number]; }
+  // The number of a corner that may have been asked for, -1: it wasn't.
+  int32_t find(int32_t surface, LatticePoint point) const {
+    return number_.find(key_of_corner(surface, point));
+  }
 
-  // Of a corner that may have been asked for, -1: it wasn't.
-  int32_t find(int32_t surface, LatticePoint point) const;
   // Asks for the light at a point that is an element's own, and gives it a number; `which` tells
   // apart those of one element.
   int32_t add(NodeId element, int which, Vec3 place);
+  // The same of the middles of many elements, whose numbers follow each other from asked() on.
+  void add_middles(const std::vector<NodeId>& elements, int which);
   // Three points that have the mean of every quadratic field over the exposed part of an element
   // some of whose corners are sealed, as far as that part is a triangle or a quadrangle; or thrice
   // one exposed point within. False: nothing exposed was found. Any thread.
   bool points_of_exposed(NodeId element, const LatticePoint corner[3], Vec3 place[3]) const;
 
-  // Takes out the points that no leaf names, those that only showed that nothing need be divided,
-  // and links from emitters that are not quite bright where they were sampled. Once, at the end.
-  void drop_what_is_unnamed();
+  // Fills state.direct with points and links, without the points that no leaf names, those that
+  // only showed that nothing need be divided, and links from emitters that are not quite bright
+  // where they were sampled. Once, at the end.
+  void keep_what_is_named();
 
  private:
   struct Wanted {
@@ -53,8 +64,13 @@ class CornerSampler {
     uint64_t key;
     Vec3 place;
   };
-  bool sample_some(const std::vector<OrientedPoint>& points, size_t first, size_t end);
-  void put(const LinkStep& step);
+  Wanted wanted_of(uint64_t key) const;
+  Wanted own_of(NodeId element, int which, Vec3 place) const;
+  OrientedPoint point_of(const Wanted& wanted) const;
+  bool sample_some(size_t first, size_t end);
+  void put(size_t first, const LinkStep& step);
+  LinkStep step_of(size_t first, size_t end, int64_t rays) const;
+  void count_links(size_t more);
   void count_memory();
   Vec3 point_of(int32_t surface, LatticePoint point) const;
   Vec3 moved_inwards(int32_t surface, Vec3 on) const;
@@ -68,15 +84,19 @@ class CornerSampler {
   LightGrid& grid_;
   const DirectLight& light_;
   const uint64_t seed_;
-  std::unordered_map<uint64_t, int32_t> number_;  // looked up only, never walked through
+  CornerNumbers number_;
   std::vector<Wanted> wanted_;
-  std::vector<float> value_;
+  size_t sampled_ = 0;        // points that have been
+  std::vector<float> value_;  // per point, as what follows
+  std::vector<Span<const Link>> links_;
   struct Place {
     float x, y, z;
     int32_t surface;
   };
-  std::vector<Place> place_;  // per sampled point, roughly
-  StageMemory memory_;        // of all these
+  std::vector<Place> place_;              // roughly
+  std::vector<std::vector<Link>> parts_;  // what the links lie in
+  size_t link_count_ = 0;
+  StageMemory memory_;  // of all these
   int64_t counted_ = 0;
   int64_t expected_ = 0;
 };

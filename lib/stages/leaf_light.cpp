@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/hash.h"
 #include "links/element.h"
+#include "machine/pieces.h"
 #include "stages/exchange.h"
 #include "stages/state_memory.h"
 
@@ -56,37 +58,45 @@ struct LeafLight::Shares {
 };
 
 std::vector<NodeId> LeafLight::new_leaves() {
-  const NodeId end = static_cast<NodeId>(forest_.nodes.size());
-  std::vector<NodeId> leaves;
-  for (NodeId id = named_; id < end; ++id) {
-    const Node& node = forest_.nodes[id];
-    if (!Forest::is_cluster(node) && forest_.is_leaf(id) && node.exposed > 0) leaves.push_back(id);
-  }
   forget_divided();
+  const NodeId first = named_, end = static_cast<NodeId>(forest_.nodes.size());
   named_ = end;
   state_.direct.mean.resize(forest_.nodes.size());
-  return leaves;
+  return gathered<NodeId>(
+      tools_.team, static_cast<size_t>(end - first), [&](size_t k, std::vector<NodeId>& leaves) {
+        const NodeId id = first + static_cast<NodeId>(k);
+        const Node& node = forest_.nodes[id];
+        if (!Forest::is_cluster(node) && forest_.is_leaf(id) && node.exposed > 0)
+          leaves.push_back(id);
+      });
 }
 
 bool LeafLight::name() {
-  std::vector<NodeId> leaves;
-  for (NodeId leaf : new_leaves())
-    if (tools_.exchange.mine(forest_.nodes[leaf].surface)) leaves.push_back(leaf);
+  std::vector<NodeId> leaves = new_leaves();
+  const auto is_others = [&](NodeId leaf) {
+    return !tools_.exchange.mine(forest_.nodes[leaf].surface);
+  };
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), is_others), leaves.end());
   state_.direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
-  std::vector<NodeId> partly_sealed;
-  for (NodeId leaf : leaves)
-    if (!take_corners(leaf)) partly_sealed.push_back(leaf);
-  take_own_points(partly_sealed);
-  std::vector<int32_t> centroids;
-  std::vector<KeyedPoint> middles;
-  for (NodeId leaf : leaves) {
-    middles.push_back(keyed_middle_of(forest_, leaf));
-    const bool wanted = forest_.nodes[leaf].light_points == at_corners;
-    centroids.push_back(wanted ? corners_.add(leaf, number_of_centroid,
-                                              forest_.triangle(forest_.nodes[leaf]).centroid())
-                               : -1);
+  take_own_points(gathered<NodeId>(tools_.team, leaves.size(),
+                                   [&](size_t k, std::vector<NodeId>& partly_sealed) {
+                                     if (!take_corners(leaves[k]))
+                                       partly_sealed.push_back(leaves[k]);
+                                   }));
+  std::vector<uint8_t> wants_its_middle(leaves.size());
+  for_each_thing(tools_.team, leaves.size(), [&](size_t k) {
+    wants_its_middle[k] = forest_.nodes[leaves[k]].light_points == at_corners;
+  });
+  std::vector<NodeId> wanted;
+  std::vector<int32_t> centroids(leaves.size(), -1);
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    if (!wants_its_middle[k]) continue;
+    centroids[k] = static_cast<int32_t>(corners_.asked()) + static_cast<int32_t>(wanted.size());
+    wanted.push_back(leaves[k]);
   }
-  state_.rays += open_cubes(grid_, middles, tools_);
+  corners_.add_middles(wanted, number_of_centroid);
+  state_.rays += open_cubes(
+      grid_, leaves.size(), [&](size_t k) { return keyed_middle_of(forest_, leaves[k]); }, tools_);
   corners_.expect(corners_.asked());
   if (!corners_.sample()) return false;
   add_up_means(leaves, centroids);
@@ -94,13 +104,15 @@ bool LeafLight::name() {
 }
 
 void LeafLight::forget_divided() {
-  std::vector<LinkTable::NewRun> none;
-  for (NodeId id = 0; id < named_; ++id) {
-    if (forest_.is_leaf(id) || Forest::is_cluster(forest_.nodes[id])) continue;
-    if (!state_.direct.of_leaf.empty()) state_.direct.of_leaf[id] = {-1, -1, -1};
-    if (state_.direct.mean[id].count() > 0) none.push_back({id, {}});
-  }
-  state_.direct.mean.replace(std::move(none));
+  auto none = gathered<LinkTable::NewRun>(
+      tools_.team, static_cast<size_t>(named_),
+      [&](size_t k, std::vector<LinkTable::NewRun>& runs) {
+        const NodeId id = static_cast<NodeId>(k);
+        if (forest_.is_leaf(id) || Forest::is_cluster(forest_.nodes[id])) return;
+        if (!state_.direct.of_leaf.empty()) state_.direct.of_leaf[id] = {-1, -1, -1};
+        if (state_.direct.mean[id].count() > 0) runs.push_back({id, {}});
+      });
+  state_.direct.mean.replace(std::move(none), &tools_.team);
 }
 
 // False: some are sealed.
@@ -113,7 +125,7 @@ bool LeafLight::take_corners(NodeId leaf) {
     lattice_corners(node, point);
   std::array<int32_t, 3> number;
   for (int c = 0; c < 3; ++c) {
-    number[c] = corners_.number(node.surface, point[c]);
+    number[c] = corners_.find(node.surface, point[c]);
     if (corners_.value(number[c]) < 0) return false;
   }
   state_.direct.of_leaf[leaf] = number;
@@ -189,7 +201,6 @@ void LeafLight::add_up(std::vector<Link>& all, const OrientedPoint& middle,
 // One run of links for each leaf, so that sweeps need no corners.
 void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
                              const std::vector<int32_t>& centroids) {
-  const CornerLight& direct = state_.direct;
   const int64_t count = static_cast<int64_t>(leaves.size());
   const int64_t tasks = (count + leaves_of_a_task - 1) / leaves_of_a_task;
   struct Result {
@@ -207,23 +218,22 @@ void LeafLight::add_up_means(const std::vector<NodeId>& leaves,
       const Shares shares = shares_of_mean(leaves[k], centroids[k]);
       const OrientedPoint middle = middle_of(forest_, leaves[k]);
       for (int p = 0; p < shares.count; ++p)
-        for (uint32_t l = direct.first[shares.number[p]]; l < direct.first[shares.number[p] + 1];
-             ++l)
-          all.push_back({direct.links[l].source,
-                         static_cast<float>(shares.weight[p] * direct.links[l].weight)});
+        for (const Link& link : corners_.links_of(shares.number[p]))
+          all.push_back({link.source,
+                         static_cast<float>(shares.weight[p] * static_cast<double>(link.weight))});
       add_up(all, middle, r.links);
       r.end.push_back(r.links.size());
     }
     memory.take(static_cast<int64_t>(r.links.capacity() * sizeof(Link)), "direct light of leaves");
   });
-  std::vector<LinkTable::NewRun> runs;
-  for (int64_t k = 0; k < count; ++k) {
+  std::vector<LinkTable::NewRun> runs(leaves.size());
+  for_each_thing(tools_.team, leaves.size(), [&](size_t k) {
     const Result& r = results[k / leaves_of_a_task];
-    const size_t in_task = static_cast<size_t>(k % leaves_of_a_task);
+    const size_t in_task = k % leaves_of_a_task;
     const size_t begin = in_task ? r.end[in_task - 1] : 0;
-    runs.push_back({leaves[k], {r.links.data() + begin, r.end[in_task] - begin}});
-  }
-  state_.direct.mean.replace(std::move(runs));
+    runs[k] = {leaves[k], {r.links.data() + begin, r.end[in_task] - begin}};
+  });
+  state_.direct.mean.replace(std::move(runs), &tools_.team);
 }
 
 }  // namespace hrad

@@ -48,7 +48,7 @@ void LeafLight::put_means(const std::vector<NodeId>& leaves, size_t first, const
     runs.push_back({leaves[first++], {next, count}});
     next += count;
   }
-  state_.direct.mean.replace(std::move(runs));
+  state_.direct.mean.replace(std::move(runs), &tools_.team);
   state_.rays += step.rays;
 }
 
@@ -73,7 +73,8 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
       for (size_t p = 0; p < points[k].size(); ++p)
         all.push_back({middle.surface, mix(middle.key, p), points[k][p]});
     }
-    state_.rays += open_cubes(grid_, all, tools_);
+    state_.rays += open_cubes(
+        grid_, all.size(), [&](size_t k) { return all[k]; }, tools_);
     const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
     if (const LinkStep* done = state_.journal.done(some, false, is_emitter)) {
       put_means(leaves, first, *done);

@@ -2,15 +2,20 @@
 #include "stages/open_cubes.h"
 
 #include <algorithm>
+#include <vector>
 
+#include "machine/pieces.h"
 #include "stages/exchange.h"
 
 namespace hrad {
 
-int64_t open_cubes(LightGrid& grid, const std::vector<KeyedPoint>& own, const StageTools& tools) {
-  std::vector<KeyedPoint> closed;
-  for (const KeyedPoint& p : own)
-    if (grid.is_closed(p.point)) closed.push_back(p);
+int64_t open_cubes(LightGrid& grid, size_t count, const std::function<KeyedPoint(size_t)>& own,
+                   const StageTools& tools) {
+  std::vector<KeyedPoint> closed =
+      gathered<KeyedPoint>(tools.team, count, [&](size_t k, std::vector<KeyedPoint>& found) {
+        const KeyedPoint point = own(k);
+        if (grid.is_closed(point.point)) found.push_back(point);
+      });
   tools.exchange.unite(closed);
   if (closed.empty()) return 0;
   std::sort(closed.begin(), closed.end(), [](const KeyedPoint& a, const KeyedPoint& b) {

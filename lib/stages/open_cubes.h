@@ -2,7 +2,7 @@
 // Floor 7 (stages).
 #pragma once
 
-#include <vector>
+#include <functional>
 
 #include "links/light_grid.h"
 #include "stages/state.h"
@@ -15,8 +15,10 @@ struct KeyedPoint {
   OrientedPoint point;
 };
 
-// Collective; own: on this process's surfaces. Whoever owns them, the cubes are opened by the same
-// points in the same order. Returns the number of this process's rays.
-int64_t open_cubes(LightGrid& grid, const std::vector<KeyedPoint>& own, const StageTools& tools);
+// Collective; own(k), on any thread: so many points on this process's surfaces. Whoever owns them,
+// the cubes are opened by the same points in the same order. Returns the number of this process's
+// rays.
+int64_t open_cubes(LightGrid& grid, size_t count, const std::function<KeyedPoint(size_t)>& own,
+                   const StageTools& tools);
 
 }  // namespace hrad

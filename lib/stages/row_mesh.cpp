@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "stages/cell_contrast.h"
+#include "machine/pieces.h"
 #include "stages/exchange.h"
 
 namespace hrad {
@@ -50,39 +50,24 @@ RowMesh::RowMesh(State& state, StageTools tools, const RowSettings& settings,
 
 bool RowMesh::build() {
   make_cells();
-  std::vector<NodeId> open;
-  for (NodeId id : state_.cells)
-    if (forest_.nodes[id].exposed > 0) open.push_back(id);
+  std::vector<NodeId> open = exposed_of(state_.cells);
   open_grid(open);
   if (settings_.means_only) return name_leaves();
   if (!keep_small_patches(open)) return false;
-  for (NodeId id : open)
-    if (is_mine(id)) want_corners(id);
+  corners_.want(points_of_own(open, PointsOf::corners));
   return sample_corners() && refine(std::move(open)) && name_leaves();
-}
-
-// Children of a leaf. Their exposure is that of the parent where it is whole.
-NodeId RowMesh::add_children(NodeId parent) {
-  const NodeId first = static_cast<NodeId>(forest_.nodes.size());
-  for (int k = 0; k < 4; ++k) {
-    Node child = child_place(forest_.nodes[parent], k);
-    child.parent = parent;
-    child.first_child = -1;
-    forest_.nodes.push_back(child);
-  }
-  forest_.nodes[parent].first_child = first;
-  return first;
 }
 
 // By points from all over the scene, before the first that are sampled, whose places are special.
 void RowMesh::open_grid(const std::vector<NodeId>& cells) {
-  std::vector<OrientedPoint> points;
-  for (NodeId id : cells) {
-    const OrientedPoint middle = middle_of(forest_, id);
-    const Triangle t = forest_.triangle(forest_.nodes[id]);
+  std::vector<OrientedPoint> points(3 * cells.size());
+  for_each_thing(tools_.team, cells.size(), [&](size_t k) {
+    const OrientedPoint middle = middle_of(forest_, cells[k]);
+    const Triangle t = forest_.triangle(forest_.nodes[cells[k]]);
+    OrientedPoint* next = &points[3 * k];
     for (const Vec3& corner : {t.a, t.b, t.c})
-      points.push_back({(corner + middle.place) * 0.5, middle.normal});
-  }
+      *next++ = {(corner + middle.place) * 0.5, middle.normal};
+  });
   state_.rays += grid_.open(points, tools_.team, tools_.exchange.comm());
   guess_share(cells, points);
 }
@@ -91,12 +76,15 @@ void RowMesh::open_grid(const std::vector<NodeId>& cells) {
 void RowMesh::guess_share(const std::vector<NodeId>& cells,
                           const std::vector<OrientedPoint>& points) {
   corners_.expect(points_of_a_cell * static_cast<int64_t>(cells.size()));
-  double shadow = 0, rows = 0;
   const size_t step = cells.size() / most_looked_at + 1;
-  for (size_t k = 0; k < cells.size(); k += step) {
-    const double shadow_rays = static_cast<double>(light_.rays_at(points[3 * k]));
-    shadow += points_of_a_cell * (work_of_a_point + shadow_rays);
-    rows += work_of_a_row_ray * settings_.rays_of(forest_.area(forest_.nodes[cells[k]]));
+  std::vector<double> shadow_rays((cells.size() + step - 1) / step);
+  for_each_thing(tools_.team, shadow_rays.size(), [&](size_t k) {
+    shadow_rays[k] = static_cast<double>(light_.rays_at(points[3 * step * k]));
+  });
+  double shadow = 0, rows = 0;
+  for (size_t k = 0; k < shadow_rays.size(); ++k) {
+    shadow += points_of_a_cell * (work_of_a_point + shadow_rays[k]);
+    rows += work_of_a_row_ray * settings_.rays_of(forest_.area(forest_.nodes[cells[step * k]]));
   }
   if (shadow > 0) share_ = shadow / (shadow + rows);
 }
@@ -109,47 +97,19 @@ bool RowMesh::sample_corners() {
   return true;
 }
 
-void RowMesh::measure_exposure(NodeId from) {
-  std::vector<NodeId> partly;
-  for (NodeId id = from; id < static_cast<NodeId>(forest_.nodes.size()); ++id)
-    if (forest_.nodes[id].exposed > 0 && forest_.nodes[id].exposed < 1) partly.push_back(id);
-  std::vector<float> exposed(partly.size());
-  tools_.team.for_each(static_cast<int64_t>(partly.size()), [&](int64_t k, int) {
-    const Node& node = forest_.nodes[partly[k]];
-    if (is_mine(partly[k])) exposed[k] = sampler_.exposed_share(node);
-  });
-  tools_.exchange.share(exposed, [&](size_t k) { return forest_.nodes[partly[k]].surface; });
-  for (size_t k = 0; k < partly.size(); ++k) forest_.nodes[partly[k]].exposed = exposed[k];
-}
-
-void RowMesh::make_cells() {
-  NodeId from = 0;
-  while (from < static_cast<NodeId>(forest_.nodes.size())) {
-    const NodeId end = static_cast<NodeId>(forest_.nodes.size());
-    for (NodeId id = from; id < end; ++id) {
-      const Node& node = forest_.nodes[id];
-      if (Forest::is_cluster(node)) continue;
-      if (forest_.area(node) > settings_.cell_area && node.level < max_level)
-        add_children(id);
-      else
-        state_.cells.push_back(id);
-    }
-    measure_exposure(end);
-    from = end;
-  }
-}
-
 // Patches no larger than a cell: three points half way to the middle have the mean of every
 // quadratic field, while corners lie in creases and contacts. Where these agree the patch is left
 // as it is, and taken out of `open`.
 bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
+  std::vector<NodeId> small;
   for (NodeId id : open)
-    if (forest_.nodes[id].level == 0 && is_mine(id)) want_half_way(id);
+    if (forest_.nodes[id].level == 0) small.push_back(id);
+  corners_.want(points_of_own(small, PointsOf::half_way_to_the_middle));
   if (!sample_corners()) return false;
   std::vector<uint8_t> kept(open.size(), 0);
-  for (size_t k = 0; k < open.size(); ++k) {
-    Node& node = forest_.nodes[open[k]];
-    if (node.level > 0 || !is_mine(open[k])) continue;
+  for_each_thing(tools_.team, open.size(), [&](size_t k) {
+    const Node& node = forest_.nodes[open[k]];
+    if (node.level > 0 || !is_mine(open[k])) return;
     LatticePoint point[3];
     half_way_points(node, point);
     double low = 1e300, high = -1;
@@ -158,7 +118,7 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
       high = std::max(high, corners_.value(node.surface, p));
     }
     kept[k] = low >= 0 && weighed((high - low) / 2, forest_.area(node)) <= 1;
-  }
+  });
   tools_.exchange.share(kept, [&](size_t k) { return forest_.nodes[open[k]].surface; });
   std::vector<NodeId> rest;
   for (size_t k = 0; k < open.size(); ++k) {
@@ -171,60 +131,60 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
   return true;
 }
 
-void RowMesh::want_half_way(NodeId id) {
-  LatticePoint point[3];
-  half_way_points(forest_.nodes[id], point);
-  for (const LatticePoint& p : point) corners_.want(forest_.nodes[id].surface, p);
-}
-
-void RowMesh::want_corners(NodeId id) {
-  LatticePoint corner[3];
-  lattice_corners(forest_.nodes[id], corner);
-  for (const LatticePoint& c : corner) corners_.want(forest_.nodes[id].surface, c);
-}
-
-void RowMesh::want_middles(NodeId id) {
-  LatticePoint corner[3];
-  lattice_corners(forest_.nodes[id], corner);
-  for (int c = 0; c < 3; ++c)
-    corners_.want(forest_.nodes[id].surface, middle(corner[c], corner[(c + 1) % 3]));
+// Of this process's own among the elements.
+std::vector<ElementPoints> RowMesh::points_of_own(const std::vector<NodeId>& elements,
+                                                  PointsOf which) const {
+  std::vector<ElementPoints> all;
+  for (NodeId id : elements)
+    if (is_mine(id)) all.push_back({id, which});
+  return all;
 }
 
 // Divides the open elements, whose corners are known, until direct light is linear between them.
 bool RowMesh::refine(std::vector<NodeId> open) {
   while (!open.empty()) {
-    std::vector<uint8_t> asked(open.size(), 0);
-    int64_t count = 0;
-    for (size_t k = 0; k < open.size(); ++k) {
-      asked[k] = is_mine(open[k]) && may_divide(open[k]);
-      if (asked[k]) want_middles(open[k]);
-      count += asked[k];
-    }
+    const std::vector<NodeId> asked =
+        gathered<NodeId>(tools_.team, open.size(), [&](size_t k, std::vector<NodeId>& some) {
+          if (is_mine(open[k]) && may_divide(open[k])) some.push_back(open[k]);
+        });
+    corners_.want(points_of_own(asked, PointsOf::middles_of_edges));
     // Later levels together ask for about as many, and each leaf for its middle.
     const int64_t leaves = static_cast<int64_t>(forest_.nodes.size()) * 3 / 4;
-    corners_.expect(corners_.asked() + count + leaves);
+    corners_.expect(corners_.asked() + static_cast<int64_t>(asked.size()) + leaves);
     if (!sample_corners()) return false;
-    std::vector<uint8_t> fate(open.size(), stays);
-    for (size_t k = 0; k < open.size(); ++k) {
-      if (!asked[k]) continue;
-      const double error = deviation(open[k]);
-      fate[k] = error > 1 ? goes_on : error > worth_keeping ? is_divided : stays;
-    }
-    tools_.exchange.share(fate, [&](size_t k) { return forest_.nodes[open[k]].surface; });
-    const NodeId end = static_cast<NodeId>(forest_.nodes.size());
-    std::vector<NodeId> families;
+    const std::vector<uint8_t> fate = fate_of(open, asked);
+    std::vector<NodeId> parents;
+    std::vector<uint8_t> fate_of_parent;
     for (size_t k = 0; k < open.size(); ++k) {
       if (fate[k] == stays) continue;
-      const NodeId first = add_children(open[k]);
-      if (fate[k] == goes_on) families.push_back(first);
+      parents.push_back(open[k]);
+      fate_of_parent.push_back(fate[k]);
     }
-    measure_exposure(end);
-    open.clear();
-    for (NodeId first : families)
-      for (NodeId child = first; child < first + 4; ++child)
-        if (forest_.nodes[child].exposed > 0) open.push_back(child);
+    const NodeId first = add_children(parents);
+    measure_exposure(first);
+    open =
+        gathered<NodeId>(tools_.team, parents.size(), [&](size_t k, std::vector<NodeId>& children) {
+          if (fate_of_parent[k] != goes_on) return;
+          const NodeId child = first + 4 * static_cast<NodeId>(k);
+          for (NodeId id = child; id < child + 4; ++id)
+            if (forest_.nodes[id].exposed > 0) children.push_back(id);
+        });
   }
   return true;
+}
+
+// Of each open element. asked: those of them whose middles have been asked for, in order.
+std::vector<uint8_t> RowMesh::fate_of(const std::vector<NodeId>& open,
+                                      const std::vector<NodeId>& asked) const {
+  std::vector<uint8_t> of_asked(asked.size()), fate(open.size(), stays);
+  for_each_thing(tools_.team, asked.size(), [&](size_t k) {
+    const double error = deviation(asked[k]);
+    of_asked[k] = error > 1 ? goes_on : error > worth_keeping ? is_divided : stays;
+  });
+  for (size_t k = 0, next = 0; k < open.size() && next < asked.size(); ++k)
+    if (open[k] == asked[next]) fate[k] = of_asked[next++];
+  tools_.exchange.share(fate, [&](size_t k) { return forest_.nodes[open[k]].surface; });
+  return fate;
 }
 
 bool RowMesh::may_divide(NodeId id) const {
@@ -260,56 +220,6 @@ double RowMesh::deviation(NodeId id) const {
     largest = std::max(largest, std::fabs(light_at(node.surface, middle(from, to)) - ends / 2));
   }
   return weighed(largest, forest_.area(node));
-}
-
-bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells) {
-  new_cells.clear();
-  const std::vector<float> contrast = contrast_of_cells(state_, brightness, tools_.exchange);
-  std::vector<uint8_t> divide(state_.cells.size());
-  for (size_t k = 0; k < divide.size(); ++k) {
-    const Node& node = forest_.nodes[state_.cells[k]];
-    const double area = forest_.area(node);
-    divide[k] = area >= 4 * settings_.least_cell_area && node.level < max_level &&
-                contrast[k] * std::sqrt(area / settings_.cell_area) > settings_.contrast;
-  }
-  std::vector<NodeId> leaves, cells;
-  for (size_t k = 0; k < divide.size(); ++k) {
-    const NodeId cell = state_.cells[k];
-    if (!divide[k])
-      cells.push_back(cell);
-    else if (forest_.is_leaf(cell))
-      leaves.push_back(cell);
-  }
-  const NodeId end = static_cast<NodeId>(forest_.nodes.size());
-  for (NodeId id : leaves) {
-    const NodeId first = add_children(id);
-    if (settings_.means_only || !is_mine(id)) continue;
-    if (forest_.nodes[id].light_points == half_way_to_the_middle) {
-      for (NodeId child = first; child < first + 4; ++child) {
-        forest_.nodes[child].light_points = half_way_to_the_middle;
-        want_half_way(child);
-      }
-    } else {
-      want_corners(id);
-      want_middles(id);
-    }
-  }
-  if (!sample_corners()) return false;
-  measure_exposure(end);
-  std::vector<LinkTable::NewRun> dropped;
-  for (size_t k = 0; k < divide.size(); ++k) {
-    if (!divide[k]) continue;
-    const NodeId cell = state_.cells[k];
-    dropped.push_back({cell, {}});
-    for (int child = 0; child < 4; ++child)
-      new_cells.push_back(forest_.nodes[cell].first_child + child);
-  }
-  std::sort(new_cells.begin(), new_cells.end());
-  cells.insert(cells.end(), new_cells.begin(), new_cells.end());
-  std::sort(cells.begin(), cells.end());
-  state_.cells.swap(cells);
-  state_.links.replace(std::move(dropped));
-  return name_leaves();
 }
 
 bool RowMesh::name_leaves() {

@@ -2,8 +2,10 @@
 // elements where light straight from bright emitters varies (design: `rows`). Floor 7 (stages).
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "hierarchy/corner_names.h"
 #include "links/link_sampler.h"
 #include "stages/corner_light.h"
 #include "stages/leaf_light.h"
@@ -28,22 +30,26 @@ class RowMesh {
   // Of the work of linking, the share that build() is: guessed once it has begun.
   double share_of_work() const { return share_; }
 
-  // Drops the points and links that no leaf needs: the mesh is as it is to be.
-  void drop_what_is_unnamed() { corners_.drop_what_is_unnamed(); }
+  // Keeps the points and links that leaves need: the mesh is as it is to be.
+  void keep_what_is_named() { corners_.keep_what_is_named(); }
 
  private:
   bool is_mine(NodeId id) const;
-  NodeId add_children(NodeId parent);
+  NodeId add_children(const std::vector<NodeId>& parents);
   void measure_exposure(NodeId from);
+  std::vector<NodeId> exposed_of(const std::vector<NodeId>& elements) const;
   void open_grid(const std::vector<NodeId>& cells);
   void guess_share(const std::vector<NodeId>& cells, const std::vector<OrientedPoint>& points);
   bool sample_corners();
   void make_cells();
   bool keep_small_patches(std::vector<NodeId>& open);
   bool refine(std::vector<NodeId> open);
-  void want_half_way(NodeId id);
-  void want_corners(NodeId id);
-  void want_middles(NodeId id);
+  std::vector<uint8_t> fate_of(const std::vector<NodeId>& open,
+                               const std::vector<NodeId>& asked) const;
+  std::vector<ElementPoints> points_of_own(const std::vector<NodeId>& elements,
+                                           PointsOf which) const;
+  std::vector<uint8_t> uneven_cells(const Brightness& brightness);
+  void divide_leaves(const std::vector<NodeId>& leaves);
   bool may_divide(NodeId id) const;
   double light_at(int32_t surface, LatticePoint corner) const;
   double deviation(NodeId id) const;
@@ -60,6 +66,7 @@ class RowMesh {
   LightGrid& grid_;
   CornerSampler corners_;
   LeafLight leaves_;
+  std::unique_ptr<CornerNames> names_;  // once cells are compared
   StageMemory& memory_;
 };
 

@@ -85,16 +85,36 @@ class RowTracer {
   std::vector<NodeId> hits_;
 };
 
-// The rows of the cells from `first` on.
-void put(State& state, const LinkStep& step, const std::vector<NodeId>& cells, int64_t first) {
+// rows: of the cells from `first` on.
+void put(State& state, const StageTools& tools, const std::vector<Span<const Link>>& rows,
+         const std::vector<NodeId>& cells, int64_t first) {
   std::vector<LinkTable::NewRun> runs;
+  for (Span<const Link> row : rows) {
+    const NodeId cell = cells[static_cast<size_t>(first++)];
+    if (tools.exchange.mine(state.forest.nodes[cell].surface)) runs.push_back({cell, row});
+  }
+  state.links.replace(std::move(runs), &tools.team);
+}
+
+// Of a step, which has the rows one after the other.
+std::vector<Span<const Link>> rows_of(const LinkStep& step) {
+  std::vector<Span<const Link>> rows;
   const Link* next = step.links.data();
   for (uint32_t count : step.counts) {
-    runs.push_back({cells[static_cast<size_t>(first++)], {next, count}});
+    rows.push_back({next, count});
     next += count;
   }
-  state.links.replace(std::move(runs));
-  state.rays += step.rays;
+  return rows;
+}
+
+LinkStep step_of(const std::vector<Span<const Link>>& rows, int64_t rays) {
+  LinkStep step;
+  step.rays = rays;
+  for (Span<const Link> row : rows) {
+    step.counts.push_back(static_cast<uint32_t>(row.size()));
+    step.links.insert(step.links.end(), row.begin(), row.end());
+  }
+  return step;
 }
 
 }  // namespace
@@ -113,27 +133,35 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     };
     if (const LinkStep* done =
             state.journal.done(static_cast<size_t>(end - first), false, is_element)) {
-      put(state, *done, cells, first);
+      put(state, tools, rows_of(*done), cells, first);
+      state.rays += done->rays;
       memory.settle();
       continue;
     }
     const int64_t tasks = (end - first + rows_of_a_task - 1) / rows_of_a_task;
     std::vector<int64_t> rays(static_cast<size_t>(tasks), 0);
-    std::vector<std::vector<Link>> rows(static_cast<size_t>(end - first));
+    std::vector<std::vector<Link>> links_of_task(static_cast<size_t>(tasks));
+    std::vector<Span<const Link>> rows(static_cast<size_t>(end - first));  // in these
     going_on = tools.team.for_each(
         tasks,
         [&](int64_t task, int) {
           RowTracer tracer(state, tools, settings, grid);
-          std::vector<Link> links;
-          int64_t bytes = 0;
+          std::vector<Link>& links = links_of_task[task];
+          size_t count_of[rows_of_a_task] = {};
           const int64_t from = first + task * rows_of_a_task;
-          for (int64_t k = from; k < std::min(end, from + rows_of_a_task); ++k) {
-            links.clear();
-            if (!tools.exchange.mine(forest.nodes[cells[k]].surface)) continue;
-            if (forest.nodes[cells[k]].exposed > 0) tracer.trace(cells[k], rays_of_cell[k], links);
-            rows[k - first].assign(links.begin(), links.end());
-            bytes += static_cast<int64_t>(links.size() * sizeof(Link));
+          const int64_t to = std::min(end, from + rows_of_a_task);
+          for (int64_t k = from; k < to; ++k) {
+            const Node& node = forest.nodes[cells[k]];
+            const size_t before = links.size();
+            if (tools.exchange.mine(node.surface) && node.exposed > 0)
+              tracer.trace(cells[k], rays_of_cell[k], links);
+            count_of[k - from] = links.size() - before;
           }
+          links.shrink_to_fit();
+          const Link* next = links.data();
+          for (int64_t k = from; k < to; next += count_of[k++ - from])
+            rows[k - first] = {next, count_of[k - from]};
+          const int64_t bytes = static_cast<int64_t>(links.size() * sizeof(Link));
           rays[task] = tracer.rays;
           memory.take(2 * bytes, "rows of rays");  // in two places for a while
         },
@@ -144,15 +172,11 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
         });
     going_on = tools.exchange.all_go_on(going_on);
     if (!going_on) break;
-    LinkStep step;
-    for (int64_t r : rays) step.rays += r;
-    for (std::vector<Link>& row : rows) {
-      step.counts.push_back(static_cast<uint32_t>(row.size()));
-      step.links.insert(step.links.end(), row.begin(), row.end());
-      row = std::vector<Link>();
-    }
-    put(state, step, cells, first);
-    state.journal.record(std::move(step));
+    int64_t all_rays = 0;
+    for (int64_t r : rays) all_rays += r;
+    state.rays += all_rays;
+    put(state, tools, rows, cells, first);
+    if (state.journal.recording) state.journal.record(step_of(rows, all_rays));
     memory.settle();
   }
   if (going_on) tools.exchange.ask_for_sources(state);

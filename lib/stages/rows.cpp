@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "machine/pieces.h"
+#include "stages/exchange.h"
 #include "stages/gather.h"
 #include "stages/row_mesh.h"
 #include "stages/row_tracer.h"
@@ -64,11 +66,12 @@ Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
   return light;
 }
 
-std::vector<int> rays_by_area(const State& state, const RowSettings& settings,
-                              const std::vector<NodeId>& cells) {
-  std::vector<int> rays;
-  for (NodeId cell : cells)
-    rays.push_back(settings.rays_of(state.forest.area(state.forest.nodes[cell])));
+std::vector<int> rays_by_area(const State& state, const StageTools& tools,
+                              const RowSettings& settings, const std::vector<NodeId>& cells) {
+  std::vector<int> rays(cells.size());
+  for_each_thing(tools.team, cells.size(), [&](size_t k) {
+    rays[k] = settings.rays_of(state.forest.area(state.forest.nodes[cells[k]]));
+  });
   return rays;
 }
 
@@ -85,24 +88,33 @@ double variance_of(LinkRun row, const Brightness& light) {
 
 // More rays for the cells that see bright spots, in proportion to the deviation of single rays.
 // What the few pilot rays of a cell missed those of the others on its surface may have met.
-std::vector<int> rays_by_variance(const State& state, const RowSettings& settings,
-                                  const Brightness& light) {
+// Others' cells have no rows here, and are left out.
+std::vector<int> rays_by_variance(const State& state, const StageTools& tools,
+                                  const RowSettings& settings, const Brightness& light) {
   const Forest& forest = state.forest;
-  std::vector<double> own, sum(static_cast<size_t>(forest.surface_count()), 0.0), area = sum;
-  for (NodeId cell : state.cells) {
-    const Node& node = forest.nodes[cell];
-    own.push_back(variance_of(state.links[cell], light));
-    sum[node.surface] += forest.area(node) * own.back();
+  std::vector<double> own(state.cells.size(), 0.0);
+  std::vector<double> sum(static_cast<size_t>(forest.surface_count()), 0.0), area = sum;
+  const auto is_mine = [&](size_t k) {
+    return tools.exchange.mine(forest.nodes[state.cells[k]].surface);
+  };
+  for_each_thing(tools.team, own.size(), [&](size_t k) {
+    if (is_mine(k)) own[k] = variance_of(state.links[state.cells[k]], light);
+  });
+  for (size_t k = 0; k < own.size(); ++k) {
+    if (!is_mine(k)) continue;
+    const Node& node = forest.nodes[state.cells[k]];
+    sum[node.surface] += forest.area(node) * own[k];
     area[node.surface] += forest.area(node);
   }
-  std::vector<int> rays;
-  for (size_t k = 0; k < own.size(); ++k) {
+  std::vector<int> rays(own.size(), 0);
+  for_each_thing(tools.team, own.size(), [&](size_t k) {
+    if (!is_mine(k)) return;
     const Node& node = forest.nodes[state.cells[k]];
     const double mean = sum[node.surface] / area[node.surface];
     const double share = std::sqrt((own[k] + mean) / 2) / ordinary_deviation;
-    rays.push_back(static_cast<int>(settings.rays_of(forest.area(node)) *
-                                    std::max(1.0, std::min(most_more_rays, share))));
-  }
+    rays[k] = static_cast<int>(settings.rays_of(forest.area(node)) *
+                               std::max(1.0, std::min(most_more_rays, share)));
+  });
   return rays;
 }
 
@@ -143,17 +155,17 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   for (int round = 0; !cells.empty(); ++round) {
     const double step = (piloted - meshed) / pilot_rounds, from = meshed + round * step;
     if (!trace_rows(state, part_of(tools, from, from + step), pilot, grid, cells,
-                    rays_by_area(state, pilot, cells), memory))
+                    rays_by_area(state, tools, pilot, cells), memory))
       return false;
     const Brightness seen = light_of_pilot_rows(state, tools);
-    rays = rays_by_variance(state, settings, seen);
+    rays = rays_by_variance(state, tools, settings, seen);
     if (round + 1 == pilot_rounds) break;
     if (!mesh.divide_cells(seen, cells)) return false;
     pull_exposure(state.forest);
   }
   if (!trace_rows(state, part_of(tools, piloted, 1), settings, grid, state.cells, rays, memory))
     return false;
-  mesh.drop_what_is_unnamed();
+  mesh.keep_what_is_named();
   state.journal.clear();
   reset_to_emission(state);
   shrink_to_fit(state);

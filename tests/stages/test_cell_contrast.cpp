@@ -33,7 +33,8 @@ struct Squares {
       runs.push_back({static_cast<NodeId>(k), {&link[k], 1}});
     }
     bench.state.links.replace(runs);
-    return contrast_of_cells(bench.state, brightness, bench.exchange);
+    return contrast_of_cells(bench.state, brightness, CornerNames(bench.state.forest), bench.team,
+                             bench.exchange);
   }
 
   Workbench bench;

@@ -1,0 +1,95 @@
+// Keys are dealt out to tables, and what is new in these is counted in the order of the keys.
+// Floor 7 (stages).
+#include "stages/corner_numbers.h"
+
+#include "machine/pieces.h"
+
+namespace hrad {
+namespace {
+
+constexpr size_t table_count = 64;
+constexpr size_t keys_of_a_piece = 4096;
+
+}  // namespace
+
+CornerNumbers::CornerNumbers() : tables_(table_count) {}
+
+int64_t CornerNumbers::bytes() const {
+  int64_t sum = 0;
+  for (const NumberTable& table : tables_) sum += table.bytes();
+  return sum;
+}
+
+std::vector<uint32_t> CornerNumbers::add_in_turn(const std::vector<uint64_t>& keys, int32_t next) {
+  std::vector<uint32_t> added;
+  for (size_t k = 0; k < keys.size(); ++k) {
+    int32_t& number = tables_[table_of(keys[k])].at(keys[k]);
+    if (number != NumberTable::none) continue;
+    number = next++;
+    added.push_back(static_cast<uint32_t>(k));
+  }
+  return added;
+}
+
+std::vector<uint32_t> CornerNumbers::add(const std::vector<uint64_t>& keys, int32_t next,
+                                         ThreadTeam& team) {
+  if (team.size() == 1 || keys.size() <= keys_of_a_piece) return add_in_turn(keys, next);
+  // Of each table its keys, in order: piece by piece, first counted, then put side by side.
+  const size_t pieces = pieces_of(keys.size(), keys_of_a_piece);
+  std::vector<uint32_t> next_of(pieces * table_count, 0), sorted(keys.size());
+  for_each_piece(
+      team, keys.size(),
+      [&](size_t piece, size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k) ++next_of[piece * table_count + table_of(keys[k])];
+      },
+      keys_of_a_piece);
+  std::vector<uint32_t> first(table_count + 1, 0);
+  uint32_t sum = 0;
+  for (size_t table = 0; table < table_count; ++table) {
+    for (size_t piece = 0; piece < pieces; ++piece) {
+      uint32_t& here = next_of[piece * table_count + table];
+      const uint32_t count = here;
+      here = sum;
+      sum += count;
+    }
+    first[table + 1] = sum;
+  }
+  for_each_piece(
+      team, keys.size(),
+      [&](size_t piece, size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k)
+          sorted[next_of[piece * table_count + table_of(keys[k])]++] = static_cast<uint32_t>(k);
+      },
+      keys_of_a_piece);
+  // New ones stand in the tables without a number until all are known.
+  struct New {
+    uint32_t key;
+    int32_t* number;
+  };
+  std::vector<std::vector<New>> new_of(table_count);
+  std::vector<int32_t> number_of(keys.size(), NumberTable::none);
+  team.for_each(static_cast<int64_t>(table_count), [&](int64_t t, int) {
+    const size_t table = static_cast<size_t>(t);
+    tables_[table].make_room(first[table + 1] - first[table]);
+    for (uint32_t at = first[table]; at < first[table + 1]; ++at) {
+      const uint32_t k = sorted[at];
+      const size_t before = tables_[table].size();
+      int32_t& number = tables_[table].at(keys[k]);
+      if (tables_[table].size() == before) continue;
+      number_of[k] = 0;
+      new_of[table].push_back({k, &number});
+    }
+  });
+  std::vector<uint32_t> added;
+  for (size_t k = 0; k < keys.size(); ++k) {
+    if (number_of[k] == NumberTable::none) continue;
+    number_of[k] = next++;
+    added.push_back(static_cast<uint32_t>(k));
+  }
+  team.for_each(static_cast<int64_t>(table_count), [&](int64_t table, int) {
+    for (const New& made : new_of[static_cast<size_t>(table)]) *made.number = number_of[made.key];
+  });
+  return added;
+}
+
+}  // namespace hrad

@@ -1,0 +1,141 @@
+// The cells of the mesh, and new elements. Floor 7 (stages).
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "machine/pieces.h"
+#include "stages/cell_contrast.h"
+#include "stages/exchange.h"
+#include "stages/row_mesh.h"
+
+namespace hrad {
+
+// Children of leaves, in the order of these; returns the first. Their exposure is that of the
+// parent where it is whole.
+NodeId RowMesh::add_children(const std::vector<NodeId>& parents) {
+  const size_t first = forest_.nodes.size();
+  forest_.nodes.resize(first + 4 * parents.size());
+  for_each_thing(tools_.team, parents.size(), [&](size_t k) {
+    Node& parent = forest_.nodes[parents[k]];
+    for (size_t c = 0; c < 4; ++c) {
+      Node child = child_place(parent, static_cast<int>(c));
+      child.parent = parents[k];
+      child.first_child = -1;
+      forest_.nodes[first + 4 * k + c] = child;
+    }
+    parent.first_child = static_cast<NodeId>(first + 4 * k);
+  });
+  return static_cast<NodeId>(first);
+}
+
+void RowMesh::measure_exposure(NodeId from) {
+  const std::vector<NodeId> partly =
+      gathered<NodeId>(tools_.team, forest_.nodes.size() - static_cast<size_t>(from),
+                       [&](size_t k, std::vector<NodeId>& some) {
+                         const NodeId id = from + static_cast<NodeId>(k);
+                         const float exposed = forest_.nodes[id].exposed;
+                         if (exposed > 0 && exposed < 1) some.push_back(id);
+                       });
+  std::vector<float> exposed(partly.size());
+  tools_.team.for_each(static_cast<int64_t>(partly.size()), [&](int64_t k, int) {
+    const Node& node = forest_.nodes[partly[k]];
+    if (is_mine(partly[k])) exposed[k] = sampler_.exposed_share(node);
+  });
+  tools_.exchange.share(exposed, [&](size_t k) { return forest_.nodes[partly[k]].surface; });
+  for (size_t k = 0; k < partly.size(); ++k) forest_.nodes[partly[k]].exposed = exposed[k];
+}
+
+// Level by level.
+void RowMesh::make_cells() {
+  const auto is_too_large = [&](const Node& node) {
+    return forest_.area(node) > settings_.cell_area && node.level < max_level;
+  };
+  size_t from = 0;
+  while (from < forest_.nodes.size()) {
+    const size_t end = forest_.nodes.size();
+    const auto those = [&](bool large) {
+      return gathered<NodeId>(tools_.team, end - from, [&](size_t k, std::vector<NodeId>& some) {
+        const Node& node = forest_.nodes[from + k];
+        if (!Forest::is_cluster(node) && is_too_large(node) == large)
+          some.push_back(static_cast<NodeId>(from + k));
+      });
+    };
+    const std::vector<NodeId> cells = those(false);
+    state_.cells.insert(state_.cells.end(), cells.begin(), cells.end());
+    add_children(those(true));
+    measure_exposure(static_cast<NodeId>(end));
+    from = end;
+  }
+}
+
+std::vector<NodeId> RowMesh::exposed_of(const std::vector<NodeId>& elements) const {
+  return gathered<NodeId>(tools_.team, elements.size(), [&](size_t k, std::vector<NodeId>& some) {
+    if (forest_.nodes[elements[k]].exposed > 0) some.push_back(elements[k]);
+  });
+}
+
+// Per cell, whether it is to be divided: for all to know.
+std::vector<uint8_t> RowMesh::uneven_cells(const Brightness& brightness) {
+  if (!names_) names_ = std::make_unique<CornerNames>(forest_);
+  const std::vector<float> contrast =
+      contrast_of_cells(state_, brightness, *names_, tools_.team, tools_.exchange);
+  std::vector<uint8_t> divide(state_.cells.size());
+  for_each_thing(tools_.team, divide.size(), [&](size_t k) {
+    const Node& node = forest_.nodes[state_.cells[k]];
+    const double area = forest_.area(node);
+    divide[k] = area >= 4 * settings_.least_cell_area && node.level < max_level &&
+                contrast[k] * std::sqrt(area / settings_.cell_area) > settings_.contrast;
+  });
+  tools_.exchange.share(divide, [&](size_t k) { return forest_.nodes[state_.cells[k]].surface; });
+  return divide;
+}
+
+// Gives children to these leaves, and asks for the light that they have to know.
+void RowMesh::divide_leaves(const std::vector<NodeId>& leaves) {
+  const NodeId first = add_children(leaves);
+  if (settings_.means_only) return;
+  std::vector<ElementPoints> wanted;
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    if (!is_mine(leaves[k])) continue;
+    if (forest_.nodes[leaves[k]].light_points == half_way_to_the_middle) {
+      const NodeId child = first + 4 * static_cast<NodeId>(k);
+      for (NodeId id = child; id < child + 4; ++id) {
+        forest_.nodes[id].light_points = half_way_to_the_middle;
+        wanted.push_back({id, PointsOf::half_way_to_the_middle});
+      }
+    } else {
+      wanted.push_back({leaves[k], PointsOf::corners});
+      wanted.push_back({leaves[k], PointsOf::middles_of_edges});
+    }
+  }
+  corners_.want(wanted);
+}
+
+bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells) {
+  const std::vector<uint8_t> divide = uneven_cells(brightness);
+  std::vector<NodeId> divided, leaves, cells;
+  for (size_t k = 0; k < divide.size(); ++k) {
+    const NodeId cell = state_.cells[k];
+    (divide[k] ? divided : cells).push_back(cell);
+    if (divide[k] && forest_.is_leaf(cell)) leaves.push_back(cell);
+  }
+  const NodeId end = static_cast<NodeId>(forest_.nodes.size());
+  divide_leaves(leaves);
+  if (!sample_corners()) return false;
+  measure_exposure(end);
+  new_cells.clear();
+  std::vector<LinkTable::NewRun> dropped;
+  for (NodeId cell : divided) {
+    dropped.push_back({cell, {}});
+    for (int child = 0; child < 4; ++child)
+      new_cells.push_back(forest_.nodes[cell].first_child + child);
+  }
+  std::sort(new_cells.begin(), new_cells.end());
+  std::vector<NodeId> all(cells.size() + new_cells.size());
+  std::merge(cells.begin(), cells.end(), new_cells.begin(), new_cells.end(), all.begin());
+  state_.cells.swap(all);
+  state_.links.replace(std::move(dropped), &tools_.team);
+  return name_leaves();
+}
+
+}  // namespace hrad
