@@ -22,14 +22,15 @@ launch() {
   local ranks=$1
   shift
   ran="mpirun -n $ranks hrad $*"
-  rm -f process.[0-9]* out err
-  timeout 500 mpirun -n "$ranks" bash process.sh "$@" </dev/null >out 2>err &
-  # The one that a signal to mpirun must go to is below that of timeout.
+  rm -f process.[0-9]* launcher out err
+  # shellcheck disable=SC2016
+  timeout 500 bash -c 'echo $$ >launcher; exec "$@"' - mpirun -n "$ranks" bash process.sh "$@" \
+    </dev/null >out 2>err &
   launched=$!
 }
 
 # signal_all NAME: to mpirun, which hands it on.
-signal_all() { pkill -"$1" -P $launched 2>/dev/null; }
+signal_all() { kill -s "$1" "$(cat launcher)"; }
 
 # until_said TEXT: the ranks have said it, or are at their end.
 until_said() {

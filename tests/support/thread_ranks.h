@@ -44,7 +44,7 @@ class Hub {
   int64_t turns = 0;
 };
 
-class CommThreads final : public hrad::Comm {
+class CommThreads : public hrad::Comm {
  public:
   CommThreads(Hub& hub, int rank) : hub_(hub), rank_(rank) {}
   int rank() const override { return rank_; }
