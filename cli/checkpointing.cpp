@@ -1,4 +1,4 @@
-// Writing from the progress callback, and at the end (checkpointing.h). CLI: public headers only.
+// Writing on the way, and at the end (checkpointing.h). CLI: public headers only.
 #include "checkpointing.h"
 
 #include <sys/stat.h>
@@ -92,22 +92,33 @@ bool Checkpointing::out_of_time() const {
          std::chrono::duration<double>(Clock::now() - start_).count() >= plan_.time_limit;
 }
 
-// Asked with every progress: writes when it is time, and the solve goes on.
-bool Checkpointing::stops() {
+// Asked with every progress of the first process: writes when it is time, and the solve goes on.
+// Several processes write together, which they can't from here: the solve pauses for it where that
+// loses nothing.
+bool Checkpointing::stops(const hrad_progress& progress) {
   if (out_of_time()) return true;
-  if (!plan_.path.empty() && (signals::take_checkpoint_request() ||
-                              std::chrono::duration<double>(Clock::now() - last_written_).count() >=
-                                  plan_.interval_seconds))
+  if (plan_.path.empty()) return false;
+  due_ = signals::take_checkpoint_request() || due_ ||
+         std::chrono::duration<double>(Clock::now() - last_written_).count() >=
+             plan_.interval_seconds;
+  if (due_ && launcher::several())
+    pauses_ = progress.stage != nullptr && std::strcmp(progress.stage, "sweep") == 0;
+  else if (due_)
     write_on_the_way();
-  return false;
+  return pauses_;
 }
 
 int Checkpointing::solve() {
-  const hrad_status status =
-      session_->solve_until([this](const hrad_progress&) { return stops(); });
-  signals::check();
-  const bool is_late = launcher::of_first(out_of_time()) != 0;
-  if (status == HRAD_STOPPED && is_late) end_with_checkpoint("the time limit is reached");
+  hrad_status status = HRAD_OK;
+  for (;;) {
+    pauses_ = false;
+    status = session_->solve_until([this](const hrad_progress& p) { return stops(p); });
+    signals::check();
+    if (status != HRAD_STOPPED) break;
+    if (launcher::of_first(out_of_time()) != 0) end_with_checkpoint("the time limit is reached");
+    if (launcher::of_first(pauses_) == 0) break;
+    write_on_the_way();
+  }
   if (status != HRAD_STOPPED && !plan_.path.empty() && has_news()) write();
   return session_->conclude(status);
 }
@@ -139,6 +150,7 @@ void Checkpointing::write_on_the_way() {
     session_->terminal().say("wrote " + plan_.path);
   if (status == HRAD_OK) sweeps_written_ = -1;
   last_written_ = Clock::now();
+  due_ = false;
 }
 
 void Checkpointing::end_with_checkpoint(const std::string& why) {

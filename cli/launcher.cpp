@@ -56,7 +56,7 @@ State state = State::unknown;
 #ifdef HRAD_CLI_MPI
 
 MPI_Comm all = MPI_COMM_NULL;
-int own_rank = 0;
+int own_rank = 0, processes = 1;
 bool mpi_runs = false;
 
 void check_mpi(int code) {
@@ -76,16 +76,16 @@ std::string name_of_mpi() {
 }
 
 void start_mpi(const Place& place) {
-  int level = MPI_THREAD_SINGLE, size = 1;
+  int level = MPI_THREAD_SINGLE;
   if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS)
     fail("MPI can't be started");
   mpi_runs = true;
   check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, &all));
   check_mpi(MPI_Comm_set_errhandler(all, MPI_ERRORS_RETURN));
   check_mpi(MPI_Comm_rank(all, &own_rank));
-  check_mpi(MPI_Comm_size(all, &size));
+  check_mpi(MPI_Comm_size(all, &processes));
   // A launcher of another MPI: every process believes itself to be the only one.
-  if (size == 1 && place.count > 1)
+  if (processes == 1 && place.count > 1)
     fail(
         "started as one of " + std::to_string(place.count) + " processes, but " + name_of_mpi() +
             " knows of no other: all would do the same work",
@@ -104,7 +104,7 @@ void broadcast(void* data, size_t size) {
 
 #else
 
-constexpr int own_rank = 0;
+constexpr int own_rank = 0, processes = 1;
 
 void start_mpi(const Place&) {}
 void broadcast(void*, size_t) {}
@@ -140,6 +140,8 @@ bool start(Choice choice, Work work) {
   start_mpi(place);
   return true;
 }
+
+bool several() { return state == State::together && processes > 1; }
 
 bool speaks() {
   switch (state) {

@@ -20,6 +20,8 @@ enum class Work { of_all, of_the_first };
 // another one does the work. Failure (MPI).
 bool start(Choice choice, Work work);
 
+// Whether several processes solve together.
+bool several();
 // Whether this process prints: the first one does, and every one that works by itself.
 bool speaks();
 

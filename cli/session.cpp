@@ -2,6 +2,7 @@
 #include "session.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "exit_code.h"
 #include "launcher.h"
@@ -142,12 +143,15 @@ std::string Session::inspect() {
 
 hrad_status Session::solve_until(const StopTest& stops) {
   hrad_status status = HRAD_OK;
+  const auto start = std::chrono::steady_clock::now();
   {
     stops_ = stops;
     signals::Watch watch(solver_);
     status = hrad_solve(solver_);
     stops_ = nullptr;
   }
+  seconds_before_ +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   terminal_.clear_line();
   check(status);
   return status;
@@ -255,7 +259,12 @@ void Session::log(int32_t level, const char* message, void* user) {
 int32_t Session::show_progress(const hrad_progress* progress, void* user) {
   auto* session = static_cast<Session*>(user);
   try {
-    session->progress_.show(*progress);
+    // A solve that was stopped and goes on is one to the user.
+    hrad_progress whole = *progress;
+    whole.seconds += session->seconds_before_;
+    if (whole.seconds_left >= 0)
+      whole.seconds_left = whole.seconds * (1 - whole.fraction) / whole.fraction;
+    session->progress_.show(whole);
     if (session->stops_ && session->stops_(*progress)) return 1;
   } catch (...) {
     return 1;

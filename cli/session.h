@@ -57,6 +57,7 @@ class Session {
 
   RunOptions options_;
   const bool goes_on_;
+  double seconds_before_ = 0;  // of the calls of hrad_solve that are over
   StopTest stops_;
   Terminal terminal_;
   Progress progress_;

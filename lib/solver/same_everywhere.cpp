@@ -53,6 +53,7 @@ void check_same_everywhere(Comm& comm, const Params& params, const Scene& scene)
          "parameter '%s' is %s on rank %d and something else on rank 0: set it alike on all ranks",
          rows[k]->name, param_text(params, *rows[k]).c_str(), comm.rank());
   }
+  comm.all_go_on();
 }
 
 }  // namespace hrad

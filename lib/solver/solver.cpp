@@ -84,12 +84,18 @@ void Solver::partition() {
   solution->exposure = std::make_unique<Exposure>(scene_, *solution->engine);
   solution->inspection = inspect(scene_, *solution->engine, *solution->exposure);
   deal_out(*solution);
+  comm_->all_go_on();  // or the scene stays open on all
   solution_ = std::move(solution);
   stats_.seconds_initial +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void Solver::warn_of_crowd(const Topology& topology, const PoolPlan& plan) const {
+  if (plan.threads > 1 && !comm_->threads_ok())
+    log_.write(Log::warning,
+               format("MPI was started for programs of one thread and the solver starts %d: call "
+                      "MPI_Init_thread with MPI_THREAD_FUNNELED, or set the parameter threads to 1",
+                      plan.threads));
   const int threads = plan.threads * plan.sharers;
   if (plan.sharers == 1 || threads <= topology.usable_contexts) return;
   log_.write(Log::warning,

@@ -142,6 +142,7 @@ void Solver::read_checkpoint(const std::string& path) {
   const Stats stats = std::exchange(stats_, content->stats);
   try {
     if (begun) take_over(*content);
+    comm_->all_go_on();
   } catch (const std::exception& error) {
     solution_ = std::move(solution);
     std::swap(scene_, content->scene);

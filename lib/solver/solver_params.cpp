@@ -1,5 +1,6 @@
 // When a parameter of a solver may change: result parameters decide the bits, so that they hold
-// from the first solve on, but for those that go on refining. Floor 8 (solver).
+// from the first solve on, but for those that go on refining. No rank takes a value unless all of
+// them accept theirs. Floor 8 (solver).
 #include <utility>
 
 #include "base/error.h"
@@ -48,6 +49,7 @@ void Solver::set_int(const std::string& name, int64_t value) {
   const ParamRow& row = find_param(name);
   Params next = changed(params_, row, value);
   check_change(row, params_, next, scene_, solution_ != nullptr, begun_);
+  comm_->all_go_on();
   params_ = std::move(next);
   scene_.bands = static_cast<int>(params_.bands);
   if (solution_) solution_->state.memory.set_limit(params_.max_memory);
@@ -57,6 +59,7 @@ void Solver::set_double(const std::string& name, double value) {
   const ParamRow& row = find_param(name);
   Params next = changed(params_, row, value);
   check_change(row, params_, next, scene_, solution_ != nullptr, begun_);
+  comm_->all_go_on();
   params_ = std::move(next);
 }
 
@@ -64,6 +67,7 @@ void Solver::set_text(const std::string& name, const std::string& value) {
   const ParamRow& row = find_param(name);
   Params next = changed(params_, row, value);
   check_change(row, params_, next, scene_, solution_ != nullptr, begun_);
+  comm_->all_go_on();
   params_ = std::move(next);
   scene_.bands = static_cast<int>(params_.bands);
   if (solution_) solution_->state.memory.set_limit(params_.max_memory);

@@ -92,8 +92,10 @@ void gather_direct(const State& state, NodeId leaf, float* irradiance) {
 void gather(State& state, ThreadTeam& team, GatherSpace& space) {
   lay_out_sources(state, team, space);
   const size_t bands = static_cast<size_t>(state.bands);
-  team.for_each(static_cast<int64_t>(state.links.block_count()), [&](int64_t task, int) {
-    const size_t number = static_cast<size_t>(task);
+  const size_t count = space.blocks.empty() ? state.links.block_count() : space.blocks.size();
+  team.for_each(static_cast<int64_t>(count), [&](int64_t task, int) {
+    const size_t at = static_cast<size_t>(task);
+    const size_t number = space.blocks.empty() ? at : space.blocks[at];
     const LinkTable::Block block = state.links.block(number);
     float* const out = &state.irradiance[block.receiver * bands];
     gather_runs(state, space, block.links, block.first, block.receivers, block.end, out);

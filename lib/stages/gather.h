@@ -10,7 +10,8 @@ namespace hrad {
 
 // What gathering needs beside the state, to be kept from sweep to sweep.
 struct GatherSpace {
-  std::vector<float> sources;  // radiosity as the inner loop reads it
+  std::vector<float> sources;    // radiosity as the inner loop reads it
+  std::vector<uint32_t> blocks;  // of receivers to be gathered for; empty: all
 };
 
 int64_t bytes_of_gather_space(const State& state);

@@ -256,7 +256,7 @@ void RefiningRound::finish() {
       std::max<int64_t>(0, links - state_.links.link_count()) * static_cast<int64_t>(sizeof(Link)),
       "refined links");
   state_.links.resize(state_.forest.nodes.size());
-  state_.links.replace(std::move(new_links_));
+  state_.links.replace(std::move(new_links_), &tools_.team);
   passes_.clear();
   pull_exposure(state_.forest);
   measure_clusters(state_.forest);
@@ -266,7 +266,7 @@ void RefiningRound::finish() {
     if (state_.forest.nodes[k].exposed <= 0 && !state_.forest.is_leaf(static_cast<NodeId>(k)) &&
         state_.links[k].count() > 0)
       sealed.push_back({static_cast<NodeId>(k), {}});
-  state_.links.replace(std::move(sealed));
+  state_.links.replace(std::move(sealed), &tools_.team);
   shrink_to_fit(state_);
   memory_.settle();
   tools_.exchange.ask_for_sources(state_);

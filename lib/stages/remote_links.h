@@ -12,7 +12,7 @@ namespace hrad {
 
 class RemoteLinks {
  public:
-  // All links between two owners are assigned to the one with fewer so far, the most first. pairs:
+  // All links between two owners are assigned to the one with fewer so far. pairs:
   // of surfaces that face each other, counted for owners a and b at a * owners + b or the other way
   // round.
   RemoteLinks(int owners, const std::vector<uint64_t>& pairs);

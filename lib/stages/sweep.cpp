@@ -22,6 +22,18 @@ void for_each_surface(const State& state, ThreadTeam& team, const Exchange& exch
   });
 }
 
+// Blocks of receivers in which some are clusters or this process's own.
+std::vector<uint32_t> own_blocks(const State& state, const Exchange& exchange) {
+  std::vector<uint32_t> blocks;
+  for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
+    const uint32_t block = static_cast<uint32_t>(k / LinkTable::receivers_of_a_block);
+    if (!blocks.empty() && blocks.back() == block) continue;
+    const Node& node = state.forest.nodes[k];
+    if (Forest::is_cluster(node) || exchange.mine(node.surface)) blocks.push_back(block);
+  }
+  return blocks;
+}
+
 // Per surface one row of `bands` sums, made by row_of(root, row), then added in key order: the same
 // bits however many threads.
 template <class RowOf>
@@ -147,6 +159,7 @@ float spread_below(const State& state, NodeId id, const std::vector<double>& uni
 }  // namespace
 
 std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, GatherSpace& space) {
+  if (!exchange.alone() && space.blocks.empty()) space.blocks = own_blocks(state, exchange);
   gather(state, team, space);
   const std::vector<double> transported = push_pull(state, team, exchange);
   exchange.update(state);

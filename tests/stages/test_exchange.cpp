@@ -1,0 +1,93 @@
+// Requests and updates: an element's radiosity is asked for once, by who links to it, and told again
+// in every sweep without being asked.
+#include "stages/exchange.h"
+
+#include <vector>
+
+#include "support/thread_ranks.h"
+#include "support/workbench.h"
+
+namespace {
+
+using namespace hrad;
+using namespace hrad_test;
+
+constexpr int ranks = 3;
+
+int32_t owner_of(NodeId surface) { return surface % ranks; }
+
+// The first root of each rank is linked to these.
+void link_to(State& state, int rank, const std::vector<NodeId>& sources) {
+  std::vector<Link> links;
+  for (NodeId source : sources) links.push_back({source, 0.5f});
+  state.links.resize(state.forest.nodes.size());
+  state.links.replace({{static_cast<NodeId>(rank), links}});
+}
+
+void elements_are_asked_for_once() {
+  const Scene scene = builtin_scene("cornell");
+  std::vector<MessageCounts> counts[4];
+  std::vector<float> seen(ranks, 0);
+  for (auto& of_rank : counts) of_rank.resize(ranks);
+  on_ranks(ranks, [&](Comm& comm) {
+    State state(scene);
+    const int rank = comm.rank();
+    const auto surfaces = static_cast<NodeId>(state.forest.surface_count());
+    std::vector<int32_t> owner;
+    for (NodeId k = 0; k < surfaces; ++k) owner.push_back(owner_of(k));
+    split_all(state.forest, 1);
+    const size_t values = state.forest.nodes.size() * static_cast<size_t>(state.bands);
+    state.radiosity.assign(values, 0);
+    state.irradiance.assign(values, 0);
+    // The children of surface k, which know whose they are.
+    const auto child = [&](NodeId surface, int k) {
+      return state.forest.nodes[surface].first_child + k;
+    };
+    Exchange exchange(comm, owner);
+    const NodeId next = (rank + 1) % ranks, last = (rank + 2) % ranks;
+    const auto ask = [&](int turn) {
+      exchange.ask_for_sources(state);
+      counts[turn][static_cast<size_t>(rank)] = exchange.counts();
+    };
+    // A root, an own element, two of the next rank and one of that after it.
+    link_to(state, rank, {next, child(rank, 0), child(next, 0), child(next, 1), child(last, 2)});
+    ask(0);
+    ask(1);  // nothing new
+    link_to(state, rank, {child(next, 1), child(next, 3), child(last, 2)});
+    ask(2);
+    for (int sweep = 0; sweep < 3; ++sweep) {
+      for (NodeId k = 0; k < static_cast<NodeId>(state.forest.nodes.size()); ++k)
+        if (exchange.mine(state.forest, k))
+          state.radiosity[static_cast<size_t>(k * state.bands)] = static_cast<float>(k + 1000 * sweep);
+      exchange.update(state);
+    }
+    counts[3][static_cast<size_t>(rank)] = exchange.counts();
+    const auto at = [&](NodeId id) { return state.radiosity[static_cast<size_t>(id * state.bands)]; };
+    bool right = true;
+    for (NodeId id : {child(next, 0), child(next, 1), child(next, 3), child(last, 2)})
+      right = right && at(id) == static_cast<float>(id + 2000);
+    seen[static_cast<size_t>(rank)] = right && at(child(next, 2)) == 0 ? 1.0f : 0.0f;
+  });
+  const auto id_bytes = static_cast<int64_t>(sizeof(NodeId));
+  for (size_t rank = 0; rank < ranks; ++rank) {
+    CHECK_EQUAL(counts[0][rank].messages[0], 2);
+    CHECK_EQUAL(counts[0][rank].bytes[0], 3 * id_bytes);
+    CHECK_EQUAL(counts[1][rank].messages[0], 2);
+    CHECK_EQUAL(counts[2][rank].messages[0], 3);
+    CHECK_EQUAL(counts[2][rank].bytes[0], 4 * id_bytes);
+    CHECK_EQUAL(counts[2][rank].messages[1], 0);
+    // Updates go to two ranks in each of three sweeps: four elements of three bands.
+    CHECK_EQUAL(counts[3][rank].messages[0], 3);
+    CHECK_EQUAL(counts[3][rank].messages[1], 6);
+    CHECK_EQUAL(counts[3][rank].bytes[1],
+                int64_t{3} * 4 * 3 * static_cast<int64_t>(sizeof(float)));
+    CHECK(seen[rank] == 1.0f);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {HRAD_TEST(elements_are_asked_for_once)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
