@@ -15,7 +15,7 @@
 namespace hrad {
 namespace {
 
-constexpr size_t corners_of_a_task = 64;
+constexpr size_t corners_of_a_task = 16;
 // Sampled together, a second's work: what a stop in their midst loses.
 constexpr size_t corners_of_a_step = 16384;
 // Corners are moved into their patch by this share of the way to its middle, so that none lies in

@@ -15,7 +15,7 @@
 namespace hrad {
 namespace {
 
-constexpr int64_t rows_of_a_task = 32;
+constexpr int64_t rows_of_a_task = 8;
 // Put in place together. Few, so that little stands beside the table.
 constexpr int64_t rows_of_a_batch = 8192;
 

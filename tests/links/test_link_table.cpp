@@ -3,6 +3,7 @@
 
 #include "base/hash.h"
 #include "links/link_table.h"
+#include "machine/thread_team.h"
 #include "support/check.h"
 
 namespace {
@@ -53,6 +54,7 @@ void appended_runs_are_there() {
 }
 
 void new_receivers_have_no_links() {
+  ThreadTeam team(3);
   LinkTable table;
   Rows rows;
   for (size_t size : sizes) {
@@ -65,7 +67,7 @@ void new_receivers_have_no_links() {
         rows[k] = some_links(mix(k, size));
         runs.push_back({static_cast<NodeId>(k), rows[k]});
       }
-    table.replace(std::move(runs));
+    table.replace(std::move(runs), &team);
     check_same(table, rows);
   }
 }
