@@ -78,23 +78,34 @@ void Exchange::update(State& state) {
   }
 }
 
-void Exchange::share_roots(State& state) {
+void Exchange::share_roots(State& state, std::vector<double>& rows) {
   if (alone()) return;
-  const int64_t before = counts_.bytes[totals];
-  share_light_of(state, owner_.size(), &counts_.bytes[totals]);
-  if (counts_.bytes[totals] > before) counts_.messages[totals] += comm_.size() - 1;
+  const size_t bands = static_cast<size_t>(state.bands);
+  int64_t sent = 0;
+  hrad::share(
+      comm_, owner_.size(), [&](size_t root) { return owner_[root]; },
+      [&](size_t root, Bytes& bytes) {
+        const size_t before = bytes.size();
+        put(bytes, &rows[root * bands], bands);
+        put(bytes, &state.radiosity[root * bands], bands);
+        put(bytes, &state.irradiance[root * bands], bands);
+        sent += static_cast<int64_t>(bytes.size() - before);
+      },
+      [&](size_t root, Taker& taker) {
+        taker.take(&rows[root * bands], bands);
+        taker.take(&state.radiosity[root * bands], bands);
+        taker.take(&state.irradiance[root * bands], bands);
+      });
+  if (sent == 0) return;
+  counts_.messages[totals] += comm_.size() - 1;
+  counts_.bytes[totals] += sent * (comm_.size() - 1);
 }
 
 void Exchange::share_light(State& state) const {
   if (alone()) return;
-  share_light_of(state, state.forest.nodes.size(), nullptr);
-}
-
-// Of so many nodes, but not of clusters. sent: grows by the bytes told to others.
-void Exchange::share_light_of(State& state, size_t nodes, int64_t* sent) const {
   const size_t bands = static_cast<size_t>(state.bands);
   std::vector<NodeId> elements;
-  for (size_t id = 0; id < nodes; ++id)
+  for (size_t id = 0; id < state.forest.nodes.size(); ++id)
     if (!Forest::is_cluster(state.forest.nodes[id])) elements.push_back(static_cast<NodeId>(id));
   const auto both = [&](size_t k, const auto& pass) {
     const size_t at = static_cast<size_t>(elements[k]) * bands;
@@ -106,7 +117,6 @@ void Exchange::share_light_of(State& state, size_t nodes, int64_t* sent) const {
       [&](size_t k) { return owner_[state.forest.nodes[elements[k]].surface]; },
       [&](size_t k, Bytes& bytes) {
         both(k, [&](const float* values) { put(bytes, values, bands); });
-        if (sent) *sent += static_cast<int64_t>(2 * bands * sizeof(float)) * (comm_.size() - 1);
       },
       [&](size_t k, Taker& taker) { both(k, [&](float* values) { taker.take(values, bands); }); });
 }

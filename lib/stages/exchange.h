@@ -71,8 +71,8 @@ class Exchange {
   void ask_for_sources(const State& state);
   // Tells others the radiosity of what they have asked for (U): theirs is here afterwards.
   void update(State& state);
-  // Light on the roots, known to all (T).
-  void share_roots(State& state);
+  // Light on the roots and what each has in `rows`, bands values, known to all (T).
+  void share_roots(State& state, std::vector<double>& rows);
   // Light on all elements, known to all.
   void share_light(State& state) const;
   // The hierarchy has gone back to the roots: nothing is asked for any more.
@@ -87,7 +87,6 @@ class Exchange {
   Comm& comm() const { return comm_; }
 
  private:
-  void share_light_of(State& state, size_t nodes, int64_t* sent) const;
   void count(int kind, const std::vector<Bytes>& sent);
 
   Comm& comm_;

@@ -36,15 +36,15 @@ std::vector<uint32_t> own_blocks(const State& state, const Exchange& exchange) {
 
 // Per surface one row of `bands` sums, made by row_of(root, row), then added in key order: the same
 // bits however many threads.
-template <class RowOf>
+// share(rows): makes them known to all.
+template <class RowOf, class Share>
 std::vector<double> surface_sums(const State& state, ThreadTeam& team, const Exchange& exchange,
-                                 RowOf&& row_of) {
+                                 RowOf&& row_of, const Share& share) {
   const int bands = state.bands;
   std::vector<double> rows(static_cast<size_t>(state.forest.surface_count()) * bands, 0.0);
   for_each_surface(state, team, exchange,
                    [&](NodeId root) { row_of(root, &rows[static_cast<size_t>(root) * bands]); });
-  exchange.share_rows(rows, static_cast<size_t>(bands),
-                      [](size_t k) { return static_cast<int32_t>(k); });
+  share(rows);
   std::vector<double> total(bands, 0.0);
   for (size_t k = 0; k < rows.size();)
     for (int b = 0; b < bands; ++b) total[b] += rows[k++];
@@ -104,19 +104,22 @@ class PushPull {
 };
 
 template <int Bands>
-std::vector<double> push_pull_all(State& state, ThreadTeam& team, const Exchange& exchange) {
+std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exchange) {
   const Scene& scene = *state.forest.scene;
-  return surface_sums(state, team, exchange, [&](NodeId root, double* row) {
-    const Surface& surface = state.forest.surfaces[root];
-    const size_t patch = static_cast<size_t>(surface.patch) * state.bands;
-    double weight = 0, from_above[most_bands] = {};
-    const NodeId cluster = state.forest.nodes[root].parent;
-    for (int b = 0; b < state.bands && cluster >= 0; ++b)
-      from_above[b] = state.irradiance[static_cast<size_t>(cluster) * state.bands + b];
-    PushPull<Bands>(state, &scene.emission[patch], &scene.reflectance[patch])
-        .go(root, from_above, row, &weight);
-    for (int b = 0; b < state.bands; ++b) row[b] *= surface.area;
-  });
+  return surface_sums(
+      state, team, exchange,
+      [&](NodeId root, double* row) {
+        const Surface& surface = state.forest.surfaces[root];
+        const size_t patch = static_cast<size_t>(surface.patch) * state.bands;
+        double weight = 0, from_above[most_bands] = {};
+        const NodeId cluster = state.forest.nodes[root].parent;
+        for (int b = 0; b < state.bands && cluster >= 0; ++b)
+          from_above[b] = state.irradiance[static_cast<size_t>(cluster) * state.bands + b];
+        PushPull<Bands>(state, &scene.emission[patch], &scene.reflectance[patch])
+            .go(root, from_above, row, &weight);
+        for (int b = 0; b < state.bands; ++b) row[b] *= surface.area;
+      },
+      [&](std::vector<double>& rows) { exchange.share_roots(state, rows); });
 }
 
 // The sum over the leaves below of f(node id, exposed area), in key order.
@@ -172,7 +175,6 @@ std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange
                                           : state.bands == 1
                                               ? push_pull_all<1>(state, team, exchange)
                                               : push_pull_all<0>(state, team, exchange);
-  exchange.share_roots(state);
   pull_to_clusters(state);
   return transported;
 }
@@ -204,13 +206,19 @@ void reset_to_emission(State& state) {
 Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange) {
   const double area = state.forest.total_area();
   Brightness brightness;
-  brightness.unit = surface_sums(state, team, exchange, [&](NodeId root, double* row) {
-    visit_leaves(state.forest, root, [&](NodeId id, double leaf_area) {
-      const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
-      for (int b = 0; b < state.bands; ++b)
-        row[b] += leaf_area * static_cast<double>(irradiance[b]) * irradiance[b];
-    });
-  });
+  brightness.unit = surface_sums(
+      state, team, exchange,
+      [&](NodeId root, double* row) {
+        visit_leaves(state.forest, root, [&](NodeId id, double leaf_area) {
+          const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
+          for (int b = 0; b < state.bands; ++b)
+            row[b] += leaf_area * static_cast<double>(irradiance[b]) * irradiance[b];
+        });
+      },
+      [&](std::vector<double>& rows) {
+        exchange.share_rows(rows, static_cast<size_t>(state.bands),
+                            [](size_t k) { return static_cast<int32_t>(k); });
+      });
   for (double& unit : brightness.unit) unit = unit > 0 ? 1 / std::sqrt(unit / area) : 0;
   brightness.of_node.resize(state.forest.nodes.size());
   for (size_t k = 0; k < brightness.of_node.size(); ++k)
