@@ -446,7 +446,8 @@ HRAD_API hrad_status hrad_power_balance(const hrad_solver *solver, double *emitt
  * before stays as PATH.prev, and older ones as PATH.prev2 and so on, as the parameter checkpoint_keep
  * says (0: none). While it is written PATH.lock keeps other writers away. Errors: FILE (what failed; the
  * old file is whole), also when another process holds the lock; STATE from the progress callback while
- * there is nothing yet to go on from. */
+ * there is nothing yet to go on from, or of several ranks, which must write together: stop the solve
+ * there, write on all of them, and solve on. */
 HRAD_API hrad_status hrad_write_checkpoint(hrad_solver *solver, const char *path);
 
 /* [C] Locks a checkpoint against other writers, in this and in other processes, before it is first

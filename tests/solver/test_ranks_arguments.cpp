@@ -117,8 +117,8 @@ void only_rank_0_has_a_scene() {
     one.note_patches();
     one.note(hrad_add_patches(one.solver, first ? 3 : -1, first ? xyz : nullptr, first ? 1 : -1,
                               first ? vertex : nullptr, nullptr));
-    one.note(hrad_set_emission(one.solver, first ? 1 : -9, first ? 1 : 0,
-                               first ? emission : nullptr));
+    one.note(
+        hrad_set_emission(one.solver, first ? 1 : -9, first ? 1 : 0, first ? emission : nullptr));
     one.note_patches();
     one.note(hrad_set_int(one.solver, "threads", 1));
     one.note(hrad_solve(one.solver));
@@ -145,8 +145,8 @@ void one_query_fails_for_all() {
     one.note(hrad_state_hash(one.solver, &hash));
     one.prepare("furnace", "rows", 0.2);
     one.note(hrad_solve(one.solver));
-    one.note(hrad_query_patches(one.solver, HRAD_RADIOSITY, HRAD_FRONT, one.rank == 1 ? 99 : 0, 1,
-                                out));
+    one.note(
+        hrad_query_patches(one.solver, HRAD_RADIOSITY, HRAD_FRONT, one.rank == 1 ? 99 : 0, 1, out));
     one.note(hrad_state_hash(one.solver, one.rank == 2 ? nullptr : &hash));
     one.note(hrad_query_patches(one.solver, HRAD_RADIOSITY, HRAD_FRONT, 0, one.rank == 1 ? 0 : 1,
                                 one.rank == 1 ? nullptr : out));

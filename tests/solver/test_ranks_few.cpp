@@ -1,6 +1,6 @@
 // Ranks with little or nothing to do: more of them than patches, an emitter on one of them, other
-// numbers of threads on each, two groups of ranks at once. And what they do together: every pair once,
-// every request once.
+// numbers of threads on each, two groups of ranks at once. And what they do together: every pair
+// once, every request once.
 #include <map>
 #include <string>
 #include <vector>
@@ -97,10 +97,10 @@ void an_emitter_on_one_rank() {
 
 void other_threads_on_each_rank() {
   for (const char* linking : {"pairs", "clusters", "rows"}) {
-    const std::string wanted = hash_of_one("cornell", linking, 0.3);
+    const std::string wanted = hash_of_one("cornell", linking, 0.5);
     for (const auto& threads : std::vector<std::vector<int>>{{3, 1}, {1, 4, 2}}) {
       const auto answers = solve_together(static_cast<int>(threads.size()), [&](SolverRank& one) {
-        set(one, linking, 0.3, threads[static_cast<size_t>(one.rank)]);
+        set(one, linking, 0.5, threads[static_cast<size_t>(one.rank)]);
         one.note(hrad_make_scene(one.solver, "cornell"));
         one.note(hrad_solve(one.solver));
         one.note_hash();
@@ -110,8 +110,8 @@ void other_threads_on_each_rank() {
   }
 }
 
-// Groups that don't know of each other, at the same time; and of one rank two solvers, one after the
-// other in each call.
+// Groups that don't know of each other, at the same time; and of one rank two solvers, one after
+// the other in each call.
 void two_groups_at_once() {
   const std::string cornell = hash_of_one("cornell", "rows", 0.2),
                     furnace = hash_of_one("furnace", "pairs", 0.1);
@@ -183,7 +183,7 @@ void requests_once_a_round() {
     };
     std::vector<Seen> seen;
     const auto answers = solve_together(3, [&](SolverRank& one) {
-      one.prepare("cornell", linking, 0.2);
+      one.prepare("cornell", linking, 0.4);
       if (one.rank == 0) hrad_set_progress(one.solver, stop_after_sweep, nullptr);
       hrad_status status = HRAD_STOPPED;
       for (int calls = 0; status == HRAD_STOPPED && calls < 200; ++calls) {
@@ -210,9 +210,12 @@ void requests_once_a_round() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(more_ranks_than_patches),    HRAD_TEST(an_emitter_on_one_rank),
-      HRAD_TEST(other_threads_on_each_rank), HRAD_TEST(two_groups_at_once),
-      HRAD_TEST(every_pair_once),            HRAD_TEST(requests_once_a_round),
+      HRAD_TEST(more_ranks_than_patches),
+      HRAD_TEST(an_emitter_on_one_rank),
+      HRAD_TEST(other_threads_on_each_rank),
+      HRAD_TEST(two_groups_at_once),
+      HRAD_TEST(every_pair_once),
+      HRAD_TEST(requests_once_a_round),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

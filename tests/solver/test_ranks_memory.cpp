@@ -1,5 +1,5 @@
-// Memory that runs out on one rank alone (its max_memory): all ranks fail with one message, wherever
-// that meets them, and go on as if nothing had been asked once there is room.
+// Memory that runs out on one rank alone (its max_memory): all ranks fail with one message,
+// wherever that meets them, and go on as if nothing had been asked once there is room.
 #include <functional>
 #include <set>
 #include <string>
@@ -35,9 +35,8 @@ struct StopAt {
 // What is short on one rank from the beginning: too little for the ray engine, for the first links,
 // for refined ones.
 void limits_from_the_beginning() {
-  for (const SolveOf& c :
-       {SolveOf{"cornell", "pairs", 0.3}, SolveOf{"cornell", "clusters", 0.4},
-        SolveOf{"cornell", "rows", 0.2}}) {
+  for (const SolveOf& c : {SolveOf{"cornell", "pairs", 0.4}, SolveOf{"cornell", "clusters", 0.5},
+                           SolveOf{"cornell", "rows", 0.2}}) {
     int64_t needed = 0;
     const std::string wanted = last_of(solve_together(ranks, [&](SolverRank& one) {
       one.prepare(c.scene, c.linking, c.accuracy);
@@ -47,7 +46,7 @@ void limits_from_the_beginning() {
       one.note_hash();
     }));
     int failures = 0, other = 0;
-    for (int64_t limit = 1000; limit < 2 * needed; limit *= 2) {
+    for (int64_t limit = 1000; limit < 2 * needed; limit *= 3) {
       other = (other + 1) % ranks;
       const auto answers = solve_together(ranks, [&](SolverRank& one) {
         one.prepare(c.scene, c.linking, c.accuracy);
@@ -63,16 +62,15 @@ void limits_from_the_beginning() {
       check_one_error(answers, HRAD_ERROR_MEMORY, "max_memory");
       ++failures;
     }
-    CHECK(failures > 5);
+    CHECK(failures > 3);
   }
 }
 
 // What becomes short while a stage is under way: its next request fails.
 void limits_in_every_stage() {
   std::set<std::string> stages_met;
-  for (const SolveOf& c :
-       {SolveOf{"cornell", "pairs", 0.3}, SolveOf{"cornell", "clusters", 0.4},
-        SolveOf{"cornell", "rows", 0.2}}) {
+  for (const SolveOf& c : {SolveOf{"cornell", "pairs", 0.4}, SolveOf{"cornell", "clusters", 0.5},
+                           SolveOf{"cornell", "rows", 0.2}}) {
     const std::string wanted = hash_of_one(c.scene, c.linking, c.accuracy);
     for (const char* stage : {"linking", "refine", "sweep"})
       for (int other : {0, ranks - 1}) {
@@ -210,8 +208,8 @@ void files_that_can_not_be_read() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(limits_from_the_beginning), HRAD_TEST(limits_in_every_stage),
-      HRAD_TEST(limits_of_the_partition),   HRAD_TEST(limits_of_reading),
+      HRAD_TEST(limits_from_the_beginning),  HRAD_TEST(limits_in_every_stage),
+      HRAD_TEST(limits_of_the_partition),    HRAD_TEST(limits_of_reading),
       HRAD_TEST(files_that_can_not_be_read),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
