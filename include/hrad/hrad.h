@@ -288,8 +288,9 @@ HRAD_API hrad_status hrad_set_reflectance(hrad_solver *solver, int64_t first_pat
  * smaller than 1e-8, larger than 1e11 or more than 1e10 of its radii from the origin; MEMORY. */
 HRAD_API hrad_status hrad_partition(hrad_solver *solver);
 
-/* [L] The rank that owns a patch: 0 in a solver made by hrad_create. Errors: ARGUMENT for a patch out
- * of range, STATE before hrad_partition. */
+/* [L] The rank that owns a patch: 0 in a solver made by hrad_create. With several ranks patches may
+ * change their owners before a round of refinement, by what the last one cost each of them; no bit of
+ * the result depends on it. Errors: ARGUMENT for a patch out of range, STATE before hrad_partition. */
 HRAD_API hrad_status hrad_patch_owner(const hrad_solver *solver, int64_t patch, int32_t *rank);
 
 /* What one of several ranks would get. Work is in rays, about: guessed from geometry and parameters,
@@ -306,7 +307,7 @@ typedef struct hrad_rank_load {
 
 enum { HRAD_MOST_RANKS = 65536 }; /* that can be planned for */
 
-/* [L] Plans a partition for `ranks` ranks without starting them: what a cluster would have to do, before
+/* [C] before hrad_partition, [L] after it: plans a partition for `ranks` ranks without starting them: what a cluster would have to do, before
  * it is booked. method: "grid", the paper's uniform grid made tight (Padron et al., Section 3.1), or
  * "cost", halves of equal predicted work. owner: a rank per patch of the scene, 0 for patches that
  * exchange no light; loads: one per rank, struct_size set in the first; either may be NULL. Closes
@@ -315,7 +316,7 @@ enum { HRAD_MOST_RANKS = 65536 }; /* that can be planned for */
 HRAD_API hrad_status hrad_plan_partition(hrad_solver *solver, const char *method, int32_t ranks,
                                          int32_t *owner, hrad_rank_load *loads);
 
-/* [L] Writes such a plan as a .vtu file for ParaView: the patches with `owner`, `work` (rays, predicted)
+/* [C] or [L] likewise: writes such a plan as a .vtu file for ParaView: the patches with `owner`, `work` (rays, predicted)
  * and `patch` as cell data. Errors: those of hrad_plan_partition; FILE; ARGUMENT for another ending. */
 HRAD_API hrad_status hrad_export_partition(hrad_solver *solver, const char *method, int32_t ranks,
                                            const char *path);
@@ -363,7 +364,7 @@ HRAD_API void hrad_request_stop(hrad_solver *solver);
 typedef struct hrad_stats {
   size_t struct_size;
   int32_t converged;          /* 1 when the last solve returned HRAD_OK */
-  int32_t ranks, threads;     /* threads of this rank */
+  int32_t ranks, threads;     /* threads of this rank; rays to pairs below are those of all ranks */
   int32_t reserved;           /* 0 */
   int64_t rounds, iterations; /* refinement rounds; sweeps */
   int64_t patches, elements, leaves, links; /* elements: all nodes of the hierarchy */
@@ -374,10 +375,12 @@ typedef struct hrad_stats {
   double error_estimate;      /* by the definition of ACCURACY; negative when not measured */
   double error_standard_error;
   double seconds_load, seconds_initial, seconds_linking, seconds_iterative, seconds_output;
-  double cpu_seconds;         /* user CPU of this process spent in solves */
-  int64_t memory_peak_bytes;  /* of this process */
+  double cpu_seconds;         /* user CPU spent in solves, of all ranks together */
+  int64_t memory_peak_bytes;  /* of the rank that needed most, as the next two */
   int64_t link_bytes, node_bytes; /* memory of links and of nodes at the end */
-  int64_t messages[3], message_bytes[3]; /* R, U, T */
+  /* Between ranks: [0] R, ids of elements whose radiosity is asked for; [1] U, radiosity of these; [2]
+   * T, what arrives at patches and the radiosity transported. */
+  int64_t messages[3], message_bytes[3];
 } hrad_stats;
 
 /* [C] Counts and times so far. Never STATE: zeros before a solve. After a solve with refine = 0 the
