@@ -40,7 +40,7 @@ class Reader {
   template <class List>
   void list(List& values) {
     resize(values);
-    taker_.take(&values[0], values.size());
+    taker_.take(values.data(), values.size());
   }
   template <class List>
   void resize(List& values) {

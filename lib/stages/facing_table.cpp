@@ -17,6 +17,7 @@ FacingTable::FacingTable(const std::vector<Element>& roots, Vec3 center, double 
 }
 
 void FacingTable::find(size_t p, size_t first, size_t count, uint8_t* faces) const {
+  if (count == 0) return;  // and `first` may lie behind the last
   const float nx = normal_[0][p], ny = normal_[1][p], nz = normal_[2][p];
   const float limit = distance_[p] + margin_;
   float px[3], py[3], pz[3];
