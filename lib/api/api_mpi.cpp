@@ -7,7 +7,7 @@ hrad_status hrad_create_mpi(MPI_Comm comm, hrad_solver** solver) {
   const auto make = [](const void* host) -> hrad::Comm* {
     return new hrad::CommMpi(*static_cast<const MPI_Comm*>(host));
   };
-  return hrad_create_over_made(make, &comm, solver);
+  return hrad_create_over(make, &comm, solver);
 }
 
 hrad_status hrad_create_mpi_f(MPI_Fint comm, hrad_solver** solver) {
@@ -15,5 +15,5 @@ hrad_status hrad_create_mpi_f(MPI_Fint comm, hrad_solver** solver) {
     hrad::require_mpi();  // the conversion needs it too
     return new hrad::CommMpi(MPI_Comm_f2c(*static_cast<const MPI_Fint*>(host)));
   };
-  return hrad_create_over_made(make, &comm, solver);
+  return hrad_create_over(make, &comm, solver);
 }

@@ -91,7 +91,7 @@ hrad_status hrad_create(hrad_solver** solver) {
   });
 }
 
-hrad_status hrad_create_over_made(hrad_comm_maker make, const void* host, hrad_solver** solver) {
+hrad_status hrad_create_over(hrad_comm_maker make, const void* host, hrad_solver** solver) {
   return hrad::api::guarded([&] {
     // Should there be no room for the solver, the others are still to be told.
     const std::shared_ptr<hrad::Comm> owned(make(host));
@@ -102,13 +102,6 @@ hrad_status hrad_create_over_made(hrad_comm_maker make, const void* host, hrad_s
     });
     *solver = made.release();
   });
-}
-
-hrad_status hrad_create_over(hrad::Comm* comm, hrad_solver** solver) {
-  const auto take = [](const void* host) {
-    return static_cast<hrad::Comm*>(const_cast<void*>(host));
-  };
-  return hrad_create_over_made(take, comm, solver);
 }
 
 void hrad_destroy(hrad_solver** solver) {

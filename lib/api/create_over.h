@@ -5,11 +5,8 @@
 #include "hrad/hrad.h"
 #include "machine/comm.h"
 
-// Makes an empty solver that owns comm, also when this fails. [C]
-extern "C" HRAD_API hrad_status hrad_create_over(hrad::Comm* comm, hrad_solver** solver);
-
-// The same over what make(host) makes. What that throws becomes the status and message of this
-// call.
+// Makes an empty solver over the Comm that make(host) makes, which it owns, also when this fails.
+// What make throws becomes the status and message of this call. [C]
 using hrad_comm_maker = hrad::Comm* (*)(const void* host);
-extern "C" HRAD_API hrad_status hrad_create_over_made(hrad_comm_maker make, const void* host,
-                                                      hrad_solver** solver);
+extern "C" HRAD_API hrad_status hrad_create_over(hrad_comm_maker make, const void* host,
+                                                 hrad_solver** solver);

@@ -1,5 +1,5 @@
-// hrad.h, section "query". All arguments are checked before the first output is written.
-// Floor 9 (api).
+// hrad.h, section "query". All arguments are checked, those of all ranks, before the first output
+// is written. Floor 9 (api).
 #include <algorithm>
 #include <cmath>
 
@@ -123,6 +123,7 @@ hrad_status hrad_query_leaves(const hrad_solver* solver, int64_t first, int64_t 
                               double* area, double* radiosity) {
   return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require_range(first, count, inside.leaf_count(), "leaves");
+    inside.comm().all_go_on();
     const int bands = inside.scene().bands;
     for (int64_t i = 0; i < count; ++i) {
       copy_leaf(inside.leaf(first + i), at(patch, i), at(face, i), at(side, i),

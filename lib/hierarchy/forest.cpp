@@ -24,6 +24,15 @@ Node child_place(const Node& parent, int child) {
   return node;
 }
 
+void place_children(std::vector<Node>& nodes, NodeId parent, NodeId first) {
+  for (int child = 0; child < 4; ++child) {
+    Node& node = nodes[static_cast<size_t>(first + child)];
+    node = child_place(nodes[static_cast<size_t>(parent)], child);
+    node.parent = parent;
+  }
+  nodes[static_cast<size_t>(parent)].first_child = first;
+}
+
 Forest::Forest(const Scene& s) : scene(&s), first_surface_(s.patch_count(), -1) {
   for (int64_t patch = 0; patch < s.patch_count(); ++patch) {
     if (s.has(patch, patch_dropped) || s.has(patch, patch_blocker)) continue;

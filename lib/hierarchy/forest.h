@@ -77,6 +77,10 @@ inline void root_coordinates(const Node& n, double x, double y, double* u, doubl
 // The lattice place of one of the four children; 3 is the one in the middle.
 Node child_place(const Node& parent, int child);
 
+// Makes four nodes from `first` on, which are there already, the children of a leaf. Their exposure
+// is that of the parent, which is right where it is whole.
+void place_children(std::vector<Node>& nodes, NodeId parent, NodeId first);
+
 class Forest {
  public:
   explicit Forest(const Scene& scene);

@@ -27,19 +27,6 @@ const LightGrid::Candidate* find(const std::vector<LightGrid::Candidate>& candid
   return found != candidates.end() && found->emitter == emitter ? &*found : nullptr;
 }
 
-void put_candidates(Bytes& bytes, const std::vector<LightGrid::Candidate>& candidates) {
-  const uint64_t count = candidates.size();
-  put(bytes, &count, 1);
-  put(bytes, candidates.data(), candidates.size());
-}
-
-void take_candidates(Taker& taker, std::vector<LightGrid::Candidate>& candidates) {
-  uint64_t count;
-  taker.take(&count, 1);
-  candidates.resize(count);
-  taker.take(candidates.data(), count);
-}
-
 }  // namespace
 
 LightGrid::LightGrid(const Emitters& emitters, const VisibilityEngine& engine, double size,
@@ -147,10 +134,10 @@ int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& te
     share(
         comm, rays.size(),
         [&](size_t k) { return static_cast<int>(k % static_cast<size_t>(comm.size())); },
-        [&](size_t k, Bytes& bytes) { put_candidates(bytes, grid->cubes[first + k].candidates); },
+        [&](size_t k, Bytes& bytes) { put_list(bytes, grid->cubes[first + k].candidates); },
         [&](size_t k, Taker& taker) {
           grid->cubes[first + k].points = std::vector<int32_t>();
-          take_candidates(taker, grid->cubes[first + k].candidates);
+          take_list(taker, grid->cubes[first + k].candidates);
         });
   }
   return all;

@@ -29,6 +29,21 @@ class Taker {
  private:
   const char* next_;
 };
+// A list with its length.
+template <class List>
+void put_list(Bytes& bytes, const List& list) {
+  const uint64_t size = list.size();
+  put(bytes, &size, 1);
+  put(bytes, list.data(), list.size());
+}
+template <class List>
+void take_list(Taker& taker, List& list) {
+  uint64_t size;
+  taker.take(&size, 1);
+  list.resize(size);
+  taker.take(list.data(), size);
+}
+
 inline std::vector<Taker> takers(const std::vector<Bytes>& all) {
   return std::vector<Taker>(all.begin(), all.end());
 }
@@ -58,18 +73,8 @@ void share_values(Comm& comm, std::vector<T>& values, const OwnerOf& owner_of) {
 template <class T, class OwnerOf>
 void share_lists(Comm& comm, std::vector<std::vector<T>>& lists, const OwnerOf& owner_of) {
   share(
-      comm, lists.size(), owner_of,
-      [&](size_t k, Bytes& bytes) {
-        const uint64_t size = lists[k].size();
-        put(bytes, &size, 1);
-        put(bytes, lists[k].data(), lists[k].size());
-      },
-      [&](size_t k, Taker& taker) {
-        uint64_t size;
-        taker.take(&size, 1);
-        lists[k].resize(size);
-        taker.take(lists[k].data(), size);
-      });
+      comm, lists.size(), owner_of, [&](size_t k, Bytes& bytes) { put_list(bytes, lists[k]); },
+      [&](size_t k, Taker& taker) { take_list(taker, lists[k]); });
 }
 
 // Collective. Rank 0's values, on all.

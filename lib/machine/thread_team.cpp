@@ -207,17 +207,16 @@ int ThreadTeam::size() const { return static_cast<int>(state_->threads.size()) +
 
 bool ThreadTeam::for_each(int64_t count, const std::function<void(int64_t task, int worker)>& body,
                           const std::function<bool(int64_t done)>& between) {
-  WorkObserver* const observer = work_observer();
-  if (!observer) return run(count, body, between);
-  observer->loop_begins(count);
+  if (!observer_) return run(count, body, between);
+  observer_->loop_begins(count);
   const bool going_on = run(
       count,
       [&](int64_t task, int worker) {
         body(task, worker);
-        observer->task_ends(task, worker);
+        observer_->task_ends(task, worker);
       },
       between);
-  observer->loop_ends();
+  observer_->loop_ends();
   return going_on;
 }
 

@@ -19,6 +19,8 @@ class ThreadTeam {
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
   int size() const;
+  // Tells an observer, which must outlive this, of every loop from now on; nullptr: nobody.
+  void set_observer(class WorkObserver* observer) { observer_ = observer; }
 
   // Runs body(task, worker) for every task 0 <= task < count, in ascending order of being taken,
   // each by one worker 0 <= worker < size(); returns when all are done. between(done) is called now
@@ -26,7 +28,7 @@ class ThreadTeam {
   // finished tasks; when it returns false, no further task is started and for_each returns false
   // (tasks under way are finished). When bodies throw, no further task is started and the exception
   // of the lowest task that throws is thrown here, the same one on any number of threads. Not
-  // reentrant. The calling thread's WorkObserver is told.
+  // reentrant.
   bool for_each(int64_t count, const std::function<void(int64_t task, int worker)>& body,
                 const std::function<bool(int64_t done)>& between = {});
 
@@ -36,6 +38,7 @@ class ThreadTeam {
 
   struct State;
   std::unique_ptr<State> state_;
+  class WorkObserver* observer_ = nullptr;
 };
 
 }  // namespace hrad

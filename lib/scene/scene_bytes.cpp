@@ -16,9 +16,7 @@ class Writer {
   }
   template <class List>
   void list(List& values) {
-    const uint64_t size = values.size();
-    put(bytes_, &size, 1);
-    put(bytes_, values.data(), values.size());
+    put_list(bytes_, values);
   }
   template <class List>
   void resize(List& values) {
@@ -39,8 +37,7 @@ class Reader {
   }
   template <class List>
   void list(List& values) {
-    resize(values);
-    taker_.take(values.data(), values.size());
+    take_list(taker_, values);
   }
   template <class List>
   void resize(List& values) {

@@ -9,19 +9,6 @@
 namespace hrad {
 namespace {
 
-void put_run(Bytes& bytes, Span<const Link> run) {
-  const uint32_t size = static_cast<uint32_t>(run.size());
-  put(bytes, &size, 1);
-  put(bytes, run.data(), run.size());
-}
-
-void take_run(Taker& taker, std::vector<Link>& run) {
-  uint32_t size;
-  taker.take(&size, 1);
-  run.resize(size);
-  taker.take(run.data(), size);
-}
-
 // What of a leaf's points is said: numbers are the owner's own, new ones in turn.
 struct PointHead {
   int32_t number;
@@ -48,7 +35,7 @@ void put_points(Bytes& bytes, const State& state, NodeId id, int32_t& known) {
     put(bytes, &head, 1);
     if (!head.is_new) continue;
     ++known;
-    put_run(bytes, direct.links_of_point(points[c]));
+    put_list(bytes, direct.links_of_point(points[c]));
   }
 }
 
@@ -63,7 +50,7 @@ void take_points(Taker& taker, CornerLight& direct, NodeId id, std::vector<int32
     taker.take(&head, 1);
     if (head.is_new) {
       number.push_back(static_cast<int32_t>(direct.point_count()));
-      take_run(taker, run);
+      take_list(taker, run);
       direct.links.insert(direct.links.end(), run.begin(), run.end());
       direct.first.push_back(static_cast<uint32_t>(direct.links.size()));
       if (head.has_place) direct.own.push_back({number.back(), head.x, head.y});
@@ -80,8 +67,8 @@ Bytes own_part(const State& state, const Exchange& exchange) {
     const Node& node = state.forest.nodes[k];
     if (Forest::is_cluster(node) || !exchange.mine(node.surface)) continue;
     put(bytes, &node.light_points, 1);
-    put_run(bytes, state.links[k].links());
-    if (k < direct.mean.size()) put_run(bytes, direct.mean[k].links());
+    put_list(bytes, state.links[k].links());
+    if (k < direct.mean.size()) put_list(bytes, direct.mean[k].links());
     if (k < direct.of_leaf.size()) put_points(bytes, state, static_cast<NodeId>(k), known);
   }
   return bytes;
@@ -111,10 +98,10 @@ AllLinks::AllLinks(State& state, const Exchange& exchange) : state_(state) {
     const size_t owner = static_cast<size_t>(exchange.owner(node.surface));
     Taker& taker = takers_of[owner];
     taker.take(&node.light_points, 1);
-    take_run(taker, run);
+    take_list(taker, run);
     links_.append(run);
     if (k < state.direct.mean.size()) {
-      take_run(taker, run);
+      take_list(taker, run);
       direct_.mean.append(run);
     }
     if (k < direct_.of_leaf.size())

@@ -42,19 +42,15 @@ void unpack_families(PackedReader& bytes, int64_t first, int64_t end, Forest& fo
   for (int64_t family = first; family < end; ++family) {
     const auto child = static_cast<NodeId>(forest.nodes.size());
     parent = bytes.moved(parent, "the parent of four elements", 0, child - 1);
-    Node& above = forest.nodes[static_cast<size_t>(parent)];
+    const Node& above = forest.nodes[static_cast<size_t>(parent)];
     if (Forest::is_cluster(above) || above.first_child >= 0 || above.level >= max_level)
       fail_format(bytes.place(), "element %lld can't have the children %d to %d: it %s",
                   static_cast<long long>(parent), child, child + 3,
                   Forest::is_cluster(above) ? "is a cluster"
                   : above.first_child >= 0  ? "has four already"
                                             : "is as small as elements can be");
-    above.first_child = child;
-    for (int k = 0; k < 4; ++k) {
-      Node node = child_place(forest.nodes[static_cast<size_t>(parent)], k);
-      node.parent = static_cast<NodeId>(parent);
-      forest.nodes.push_back(node);
-    }
+    forest.nodes.resize(forest.nodes.size() + 4);
+    place_children(forest.nodes, static_cast<NodeId>(parent), child);
   }
 }
 

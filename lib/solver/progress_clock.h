@@ -14,12 +14,14 @@ namespace hrad {
 
 class ProgressClock {
  public:
-  explicit ProgressClock(std::function<bool(const Progress&)> sink) : sink_(std::move(sink)) {}
+  // observer: told of the stages, may be nullptr.
+  ProgressClock(std::function<bool(const Progress&)> sink, WorkObserver* observer)
+      : sink_(std::move(sink)), observer_(observer) {}
 
   // From here on `name` is under way, from `first` to `last` of the whole.
   void begin(const char* name, double first, double last) {
     name_ = name;
-    if (WorkObserver* observer = work_observer()) observer->stage_begins(name);
+    if (observer_) observer_->stage_begins(name);
     first_ = first;
     last_ = last;
   }
@@ -41,6 +43,7 @@ class ProgressClock {
 
  private:
   std::function<bool(const Progress&)> sink_;
+  WorkObserver* const observer_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const char* name_ = "initial";
   double first_ = 0, last_ = 0, fraction_ = 0;

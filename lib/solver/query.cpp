@@ -92,6 +92,8 @@ void Solver::query_patches(Quantity quantity, int32_t side, int64_t first, int64
                            double* out) const {
   check_quantity(quantity, side);
   check_range("patches", first, count, scene_.patch_count());
+  if (quantity != Quantity::emission) require_solved();
+  comm_->all_go_on();  // nothing is answered to anyone unless all ask for what there is
   const int bands = scene_.bands;
   if (quantity == Quantity::emission) {
     for (int64_t k = 0; k < count; ++k) {
@@ -103,7 +105,6 @@ void Solver::query_patches(Quantity quantity, int32_t side, int64_t first, int64
     }
     return;
   }
-  require_solved();
   const State& state = solution_->state;
   for (int64_t k = 0; k < count; ++k) {
     const NodeId root = state.forest.root(first + k, side);
@@ -128,6 +129,7 @@ void Solver::query_points(Quantity quantity, int32_t side, int64_t count, const 
       fail(Status::argument, "point %lld has u = %g, v = %g: it must lie in its patch",
            static_cast<long long>(k), u, v);
   }
+  comm_->all_go_on();
   const Reconstruction& linear = reconstruction();
   for (int64_t k = 0; k < count; ++k) {
     const NodeId root = state.forest.root(patch[k], side);
@@ -162,6 +164,7 @@ void Solver::query_sensors(int64_t count, const double* xyz, const double* norma
   for (int64_t k = 0; k < count; ++k)
     if (!(length({normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]}) > 0))
       fail(Status::argument, "sensor %lld has a normal of length 0", static_cast<long long>(k));
+  comm_->all_go_on();
   // The noise of n rays is about 1/sqrt(n): a quarter of the accuracy, within bounds.
   const double wanted = 16 / (params_.accuracy * params_.accuracy);
   const int rays = static_cast<int>(std::max(1024.0, std::min(65536.0, wanted)));

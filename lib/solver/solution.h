@@ -19,7 +19,6 @@ struct Solver::Solution : SolveProgress {
   explicit Solution(const Scene& scene) : state(scene) {}
 
   std::unique_ptr<ThreadTeam> team;
-  std::vector<int32_t> owners;  // per patch
   std::unique_ptr<Exchange> exchange;
   std::unique_ptr<VisibilityEngine> engine;
   std::unique_ptr<Exposure> exposure;

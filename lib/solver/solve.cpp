@@ -9,6 +9,7 @@
 #include "solver/same_everywhere.h"
 #include "solver/schedule.h"
 #include "solver/solution.h"
+#include "stages/exposed_shares.h"
 #include "stages/gather.h"
 #include "stages/linking.h"
 #include "stages/rebalance.h"
@@ -26,19 +27,10 @@ namespace {
 constexpr double surely_missed = 2, least_measurable = 0.02;
 constexpr int most_tightenings = 2;
 
-// The share of a leaf's or a root's area that is exposed.
-void measure_exposure(State& state, const StageTools& tools) {
-  const LinkSampler sampler(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
-                            tools.oracle.near_ratio);
-  std::vector<float> shares;
-  for (int64_t k = 0; k < state.forest.surface_count(); ++k)
-    shares.push_back(state.forest.nodes[k].exposed);
-  tools.team.for_each(state.forest.surface_count(), [&](int64_t k, int) {
-    if (tools.exchange.mine(static_cast<int32_t>(k)))
-      shares[k] = sampler.exposed_share(state.forest.nodes[k]);
-  });
-  tools.exchange.share(shares, [](size_t k) { return static_cast<int32_t>(k); });
-  for (size_t k = 0; k < shares.size(); ++k) state.forest.nodes[k].exposed = shares[k];
+void measure_roots(State& state, const StageTools& tools) {
+  std::vector<NodeId> roots;
+  for (NodeId root = 0; root < state.forest.surface_count(); ++root) roots.push_back(root);
+  measure_exposure(state, tools, roots);
 }
 
 }  // namespace
@@ -53,13 +45,15 @@ class Solver::Run {
         params_(solver.params_),
         by_rows_(by_rows(params_, state_.forest, solution_.inspection)),
         exchange_(*solver.solution_->exchange),
-        clock_([&solver](const Progress& p) {
-          const bool asked = solver.comm_->rank() == 0 && solver.progress_;
-          const bool stop = solver.stop_requested_.load(std::memory_order_relaxed) ||
-                            (asked && !solver.progress_(p));
-          if (stop) solver.comm_->raise();
-          return !stop && !solver.comm_->raised();
-        }) {}
+        clock_(
+            [&solver](const Progress& p) {
+              const bool asked = solver.comm_->rank() == 0 && solver.progress_;
+              const bool stop = solver.stop_requested_.load(std::memory_order_relaxed) ||
+                                (asked && !solver.progress_(p));
+              if (stop) solver.comm_->raise();
+              return !stop && !solver.comm_->raised();
+            },
+            solver.observer_) {}
 
   Status run() {
     if (params_.refine == 0) return sweep_again();
@@ -181,7 +175,7 @@ class Solver::Run {
   bool link_by_pairs() {
     clock_.begin("linking", 0.02, 0.25);
     StageTools stage = tools(0);
-    measure_exposure(state_, stage);
+    measure_roots(state_, stage);
     reset_to_emission(state_);
     state_.links.resize(state_.forest.nodes.size());
     return link_pairs(state_, stage, expected_brightness(state_));
@@ -190,7 +184,7 @@ class Solver::Run {
   bool link_by_clusters() {
     clock_.begin("linking", 0.02, 0.1);
     StageTools stage = tools(0);
-    measure_exposure(state_, stage);
+    measure_roots(state_, stage);
     if (state_.forest.clusters.empty()) add_clusters(state_.forest);
     state_.links.resize(state_.forest.nodes.size());
     reset_to_emission(state_);
@@ -201,7 +195,7 @@ class Solver::Run {
     clear_state();
     clock_.begin("linking", 0.02, 0.85);
     const StageTools stage = tools(first_rounds);
-    measure_exposure(state_, stage);
+    measure_roots(state_, stage);
     return link_rows(
         state_, stage,
         rows_of(params_, state_.forest, solution_.inspection.mean_distance, solution_.scale));
@@ -215,7 +209,7 @@ class Solver::Run {
     const auto start = std::chrono::steady_clock::now();
     // The last round tells best what surfaces cost; before the first one there are their links.
     if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
-    if (rebalance(state_, exchange_, work_)) solver_.note_owners();
+    rebalance(state_, exchange_, work_);
     const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
     const bool done = refine_links(state_, tools(number), brightness, &work_);
     solver_.stats_.seconds_iterative +=

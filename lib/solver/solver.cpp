@@ -78,6 +78,7 @@ void Solver::partition() {
                                   sharers_of_processors(*comm_, topology));
   warn_of_crowd(topology, plan);
   solution->team = std::make_unique<ThreadTeam>(plan.threads, plan.binding);
+  solution->team->set_observer(observer_);
   solution->engine =
       make_visibility_engine(scene_, params_.visibility, params_.instruction_set, *solution->team);
   memory.take(solution->engine->bytes() - expected, "the structure for rays");
@@ -106,26 +107,17 @@ void Solver::warn_of_crowd(const Topology& topology, const PoolPlan& plan) const
 
 // Gives every patch an owner.
 void Solver::deal_out(Solution& solution) const {
-  const int32_t ranks = comm_->size();
-  if (ranks == 1) {
-    solution.owners.assign(static_cast<size_t>(scene_.patch_count()), 0);
-  } else {
+  const std::vector<Surface>& surfaces = solution.state.forest.surfaces;
+  std::vector<int32_t> of_surface(surfaces.size(), 0);
+  if (!comm_->alone()) {
     const std::vector<PartitionItem> items =
         partition_items(scene_, predicted_work(params_, solution.state, solution.inspection));
-    solution.owners =
-        owners_of(scene_, items, partition_method(params_.partition).divide(items, ranks));
+    const std::vector<int32_t> owners =
+        owners_of(scene_, items, partition_method(params_.partition).divide(items, comm_->size()));
+    for (size_t k = 0; k < surfaces.size(); ++k)
+      of_surface[k] = owners[static_cast<size_t>(surfaces[k].patch)];
   }
-  std::vector<int32_t> of_surface;
-  for (const Surface& surface : solution.state.forest.surfaces)
-    of_surface.push_back(solution.owners[static_cast<size_t>(surface.patch)]);
   solution.exchange = std::make_unique<Exchange>(*comm_, std::move(of_surface));
-}
-
-void Solver::note_owners() {
-  const std::vector<Surface>& surfaces = solution_->state.forest.surfaces;
-  for (size_t k = 0; k < surfaces.size(); ++k)
-    solution_->owners[static_cast<size_t>(surfaces[k].patch)] =
-        solution_->exchange->owner(static_cast<int32_t>(k));
 }
 
 int32_t Solver::patch_owner(int64_t patch) const {
@@ -133,7 +125,9 @@ int32_t Solver::patch_owner(int64_t patch) const {
   if (patch < 0 || patch >= scene_.patch_count())
     fail(Status::argument, "patch %lld: the scene has %lld patches, from 0 on",
          static_cast<long long>(patch), static_cast<long long>(scene_.patch_count()));
-  return solution_->owners[static_cast<size_t>(patch)];
+  // Who exchanges no light is nobody's work.
+  const NodeId root = solution_->state.forest.root(patch, 0);
+  return root < 0 ? 0 : solution_->exchange->owner(root);
 }
 
 PartitionPlan Solver::plan_partition(const std::string& method, int32_t ranks) {

@@ -15,6 +15,7 @@
 #include "base/vec3.h"
 #include "machine/comm.h"
 #include "machine/file_lock.h"
+#include "machine/work_observer.h"
 #include "scene/scene.h"
 #include "solver/params.h"
 #include "solver/stats.h"
@@ -54,6 +55,8 @@ class Solver {
   Log& log() { return log_; }
   // sink returns false to stop the solve at the next safe point. Called on the thread of solve().
   void set_progress(std::function<bool(const Progress&)> sink) { progress_ = std::move(sink); }
+  // Tells an observer, which must outlive this, of stages and loops; before partition().
+  void set_observer(WorkObserver* observer) { observer_ = observer; }
 
   // load: collective; what describes the scene is taken from rank 0's arguments, whatever those of
   // the others are
@@ -118,7 +121,6 @@ class Solver {
   class Run;
   void warn_of_crowd(const struct Topology& topology, const struct PoolPlan& plan) const;
   void deal_out(Solution& solution) const;
-  void note_owners();  // after a rebalance
   void require_solved() const;
   void measure_if_due() const;
   Stats counts() const;  // stats() with what has been measured already
@@ -137,6 +139,7 @@ class Solver {
   Params params_;
   Log log_;
   std::function<bool(const Progress&)> progress_;
+  WorkObserver* observer_ = nullptr;
   Scene scene_;
   mutable Stats stats_;
   std::atomic<bool> stop_requested_{false};

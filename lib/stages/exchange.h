@@ -25,7 +25,9 @@ class Exchange {
   bool alone() const { return comm_.alone(); }
   int32_t owner(int32_t surface) const { return owner_[surface]; }
   const std::vector<int32_t>& owners() const { return owner_; }
-  bool mine(int32_t surface) const { return owner_[surface] == comm_.rank(); }
+  int32_t owner_count() const { return comm_.size(); }
+  bool is_me(int32_t owner) const { return owner == comm_.rank(); }
+  bool mine(int32_t surface) const { return is_me(owner_[surface]); }
   bool mine(const Forest& forest, NodeId id) const { return mine(surface_of(forest, id)); }
   // A cluster belongs to the owner of its first surface.
   static int32_t surface_of(const Forest& forest, NodeId id) {

@@ -4,21 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "machine/pieces.h"
 #include "stages/gather_kernel.h"
 
 namespace hrad {
 namespace {
 
-constexpr int64_t items_of_a_task = 2048;
-
-template <class Body>
-void for_each_part(size_t count, ThreadTeam& team, const Body& body) {
-  const int64_t all = static_cast<int64_t>(count);
-  team.for_each((all + items_of_a_task - 1) / items_of_a_task, [&](int64_t task, int) {
-    body(static_cast<size_t>(task * items_of_a_task),
-         static_cast<size_t>(std::min(all, (task + 1) * items_of_a_task)));
-  });
-}
+constexpr size_t items_of_a_task = 2048;
 
 bool by_lanes(int bands) { return bands >= 2 && bands <= lanes_of_a_source; }
 
@@ -50,11 +42,14 @@ void lay_out_sources(const State& state, ThreadTeam& team, GatherSpace& space) {
   if (!by_lanes(state.bands)) return;
   const size_t bands = static_cast<size_t>(state.bands), nodes = state.forest.nodes.size();
   space.sources.resize(nodes * bands + lanes_of_a_source);
-  for_each_part(nodes, team, [&](size_t begin, size_t end) {
-    std::copy(state.radiosity.begin() + static_cast<std::ptrdiff_t>(begin * bands),
-              state.radiosity.begin() + static_cast<std::ptrdiff_t>(end * bands),
-              space.sources.begin() + static_cast<std::ptrdiff_t>(begin * bands));
-  });
+  for_each_piece(
+      team, nodes,
+      [&](size_t, size_t begin, size_t end) {
+        std::copy(state.radiosity.begin() + static_cast<std::ptrdiff_t>(begin * bands),
+                  state.radiosity.begin() + static_cast<std::ptrdiff_t>(end * bands),
+                  space.sources.begin() + static_cast<std::ptrdiff_t>(begin * bands));
+      },
+      items_of_a_task);
 }
 
 // Adds the direct light of one block's leaves.

@@ -25,7 +25,7 @@ struct Task {
 std::vector<uint64_t> facing_pairs(const PairLinker& linker, int64_t count,
                                    const StageTools& tools) {
   const Exchange& exchange = tools.exchange;
-  const size_t owners = static_cast<size_t>(exchange.comm().size());
+  const size_t owners = static_cast<size_t>(exchange.owner_count());
   std::vector<std::vector<uint64_t>> of_worker(static_cast<size_t>(tools.team.size()),
                                                std::vector<uint64_t>(owners * owners, 0));
   tools.team.for_each(count, [&](int64_t p, int worker) {
@@ -58,7 +58,7 @@ class PairSearch {
         exchange_(tools.exchange),
         count_(state.forest.surface_count()),
         linker_(state, tools, brightness),
-        remote_(exchange_.comm().size(), exchange_.alone() ? std::vector<uint64_t>{0}
+        remote_(exchange_.owner_count(), exchange_.alone() ? std::vector<uint64_t>{0}
                                                            : facing_pairs(linker_, count_, tools)),
         found_(static_cast<size_t>(count_)) {}
 
@@ -97,7 +97,7 @@ class PairSearch {
 
   // To every owner the links of its receivers that were found here.
   std::vector<Bytes> for_others() const {
-    std::vector<Bytes> to(static_cast<size_t>(exchange_.comm().size()));
+    std::vector<Bytes> to(static_cast<size_t>(exchange_.owner_count()));
     for (size_t k = 0; k < found_.size(); ++k) {
       const NodeId p = static_cast<NodeId>(k);
       for (const Reciprocal& r : found_[k]) {
@@ -123,14 +123,14 @@ class PairSearch {
   bool is_mine(NodeId p, int32_t other, Which which) const {
     const int32_t owner = exchange_.owner(p);
     return (owner == other) == (which == Which::of_one_owner) &&
-           remote_.computed_by(owner, other) == exchange_.comm().rank();
+           exchange_.is_me(remote_.computed_by(owner, other));
   }
 
   std::vector<Task> tasks_of(Which which) const {
     std::vector<Task> tasks;
     for (NodeId p = 0; p < static_cast<NodeId>(count_); ++p) {
       bool any = false;
-      for (int32_t other = 0; other < exchange_.comm().size(); ++other)
+      for (int32_t other = 0; other < exchange_.owner_count(); ++other)
         any = any || is_mine(p, other, which);
       if (!any) continue;
       for (NodeId first = p + 1; first < static_cast<NodeId>(count_); first += partners_of_a_task)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "machine/pieces.h"
+
 namespace hrad {
 
 std::vector<NewFamily> new_families(const SubtreeResult& result) {
@@ -34,7 +36,7 @@ std::vector<NewFamily> new_families(const SubtreeResult& result) {
 std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
                                  const std::vector<std::vector<NewFamily>>& families,
                                  ThreadTeam& team) {
-  constexpr int64_t tasks_of_a_step = 64;
+  constexpr size_t tasks_of_a_step = 64;
   const size_t bands = static_cast<size_t>(state.bands);
   std::vector<Node>& nodes = state.forest.nodes;
   std::vector<NodeId> first;
@@ -52,25 +54,23 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
       const NodeId parent = family.parent == NewFamily::root_of_task ? roots[task]
                             : family.parent >= 0                     ? family.parent
                                                  : first[task] - 1 - family.parent;
+      place_children(nodes, parent, next);
       for (int child = 0; child < 4; ++child) {
         const size_t id = static_cast<size_t>(next + child);
-        nodes[id] = child_place(nodes[static_cast<size_t>(parent)], child);
-        nodes[id].parent = parent;
-        nodes[id].first_child = -1;
         nodes[id].exposed = family.exposed[child];
         for (auto* light : {&state.radiosity, &state.irradiance})
           std::copy_n(light->begin() + static_cast<std::ptrdiff_t>(parent * bands), bands,
                       light->begin() + static_cast<std::ptrdiff_t>(id * bands));
       }
-      nodes[static_cast<size_t>(parent)].first_child = next;
       next += 4;
     }
   };
-  const int64_t tasks = static_cast<int64_t>(families.size());
-  team.for_each((tasks + tasks_of_a_step - 1) / tasks_of_a_step, [&](int64_t step, int) {
-    for (int64_t k = step * tasks_of_a_step; k < std::min(tasks, (step + 1) * tasks_of_a_step); ++k)
-      add(static_cast<size_t>(k));
-  });
+  for_each_piece(
+      team, families.size(),
+      [&](size_t, size_t begin, size_t end) {
+        for (size_t task = begin; task < end; ++task) add(task);
+      },
+      tasks_of_a_step);
   return first;
 }
 

@@ -45,10 +45,8 @@ void move_links(State& state, Exchange& exchange, std::vector<int32_t> owners) {
     const int32_t next = owners[static_cast<size_t>(nodes[k].surface)];
     if (next == comm.rank()) continue;
     const Span<const Link> run = state.links[k].links();
-    const uint32_t size = static_cast<uint32_t>(run.size());
-    put(to[static_cast<size_t>(next)], &size, 1);
-    put(to[static_cast<size_t>(next)], run.data(), run.size());
-    if (size > 0) runs.push_back({static_cast<NodeId>(k), {}});
+    put_list(to[static_cast<size_t>(next)], run);
+    if (!run.empty()) runs.push_back({static_cast<NodeId>(k), {}});
   }
   const std::vector<Bytes> from = comm.exchange(std::move(to));
   std::vector<Taker> taken = takers(from);
@@ -57,13 +55,12 @@ void move_links(State& state, Exchange& exchange, std::vector<int32_t> owners) {
   for (size_t k = 0; k < nodes.size(); ++k) {
     if (Forest::is_cluster(nodes[k]) || exchange.mine(nodes[k].surface)) continue;
     if (owners[static_cast<size_t>(nodes[k].surface)] != comm.rank()) continue;
-    Taker& taker = taken[static_cast<size_t>(exchange.owner(nodes[k].surface))];
-    uint32_t size;
-    taker.take(&size, 1);
-    if (size == 0) continue;
-    arrived.emplace_back(size);
-    taker.take(arrived.back().data(), size);
-    receivers.push_back(static_cast<NodeId>(k));
+    arrived.emplace_back();
+    take_list(taken[static_cast<size_t>(exchange.owner(nodes[k].surface))], arrived.back());
+    if (arrived.back().empty())
+      arrived.pop_back();
+    else
+      receivers.push_back(static_cast<NodeId>(k));
   }
   for (size_t k = 0; k < receivers.size(); ++k) runs.push_back({receivers[k], arrived[k]});
   state.links.replace(std::move(runs));
@@ -83,8 +80,8 @@ std::vector<double> links_of_surfaces(const State& state, const Exchange& exchan
   return links;
 }
 
-bool rebalance(State& state, Exchange& exchange, std::vector<double> work) {
-  if (exchange.alone()) return false;
+void rebalance(State& state, Exchange& exchange, std::vector<double> work) {
+  if (exchange.alone()) return;
   const int ranks = exchange.comm().size();
   std::vector<double> links = links_of_surfaces(state, exchange);
   const auto itself = [](size_t k) { return static_cast<int32_t>(k); };
@@ -97,13 +94,12 @@ bool rebalance(State& state, Exchange& exchange, std::vector<double> work) {
     all_links += links[k];
     all_work += work[k];
   }
-  if (!(all_links > 0)) return false;
+  if (!(all_links > 0)) return;
   const double before = largest_load(work, exchange.owners(), ranks);
   const double gain = before - largest_load(work, owners, ranks);
   if (!(gain > least_gain * before && gain > work_of_a_move * moved / ranks * all_work / all_links))
-    return false;
+    return;
   move_links(state, exchange, std::move(owners));
-  return true;
 }
 
 }  // namespace hrad

@@ -6,24 +6,17 @@
 #include "machine/pieces.h"
 #include "stages/cell_contrast.h"
 #include "stages/exchange.h"
+#include "stages/exposed_shares.h"
 #include "stages/row_mesh.h"
 
 namespace hrad {
 
-// Children of leaves, in the order of these; returns the first. Their exposure is that of the
-// parent where it is whole.
+// Children of leaves, in the order of these; returns the first.
 NodeId RowMesh::add_children(const std::vector<NodeId>& parents) {
   const size_t first = forest_.nodes.size();
   forest_.nodes.resize(first + 4 * parents.size());
   for_each_thing(tools_.team, parents.size(), [&](size_t k) {
-    Node& parent = forest_.nodes[parents[k]];
-    for (size_t c = 0; c < 4; ++c) {
-      Node child = child_place(parent, static_cast<int>(c));
-      child.parent = parents[k];
-      child.first_child = -1;
-      forest_.nodes[first + 4 * k + c] = child;
-    }
-    parent.first_child = static_cast<NodeId>(first + 4 * k);
+    place_children(forest_.nodes, parents[k], static_cast<NodeId>(first + 4 * k));
   });
   return static_cast<NodeId>(first);
 }
@@ -36,13 +29,7 @@ void RowMesh::measure_exposure(NodeId from) {
                          const float exposed = forest_.nodes[id].exposed;
                          if (exposed > 0 && exposed < 1) some.push_back(id);
                        });
-  std::vector<float> exposed(partly.size());
-  tools_.team.for_each(static_cast<int64_t>(partly.size()), [&](int64_t k, int) {
-    const Node& node = forest_.nodes[partly[k]];
-    if (is_mine(partly[k])) exposed[k] = sampler_.exposed_share(node);
-  });
-  tools_.exchange.share(exposed, [&](size_t k) { return forest_.nodes[partly[k]].surface; });
-  for (size_t k = 0; k < partly.size(); ++k) forest_.nodes[partly[k]].exposed = exposed[k];
+  hrad::measure_exposure(state_, tools_, partly);
 }
 
 // Level by level.

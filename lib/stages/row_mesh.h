@@ -61,7 +61,6 @@ class RowMesh {
   double share_ = 0.3;
   const StageTools tools_;
   const RowSettings settings_;
-  const LinkSampler sampler_;
   const DirectLight& light_;
   LightGrid& grid_;
   CornerSampler corners_;

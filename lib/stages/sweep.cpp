@@ -4,21 +4,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/pieces.h"
 #include "stages/cluster_sweep.h"
 
 namespace hrad {
 namespace {
 
-constexpr int64_t surfaces_of_a_task = 64;
+constexpr size_t surfaces_of_a_task = 64;
+
+template <class Body>
+void for_each_root(const State& state, ThreadTeam& team, const Body& body) {
+  const auto some = [&](size_t, size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) body(static_cast<NodeId>(k));
+  };
+  for_each_piece(team, static_cast<size_t>(state.forest.surface_count()), some, surfaces_of_a_task);
+}
 
 // Of those that are this process's own.
 template <class Body>
 void for_each_surface(const State& state, ThreadTeam& team, const Exchange& exchange, Body&& body) {
-  const int64_t count = state.forest.surface_count();
-  team.for_each((count + surfaces_of_a_task - 1) / surfaces_of_a_task, [&](int64_t task, int) {
-    const int64_t end = std::min(count, (task + 1) * surfaces_of_a_task);
-    for (int64_t k = task * surfaces_of_a_task; k < end; ++k)
-      if (exchange.mine(static_cast<int32_t>(k))) body(static_cast<NodeId>(k));
+  for_each_root(state, team, [&](NodeId root) {
+    if (exchange.mine(root)) body(root);
   });
 }
 
@@ -224,11 +230,8 @@ Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchan
   for (size_t k = 0; k < brightness.of_node.size(); ++k)
     brightness.of_node[k] = brightness_of(&state.radiosity[k * state.bands], brightness.unit);
   brightness.spread.resize(state.forest.nodes.size());
-  const int64_t roots = state.forest.surface_count();
-  team.for_each((roots + surfaces_of_a_task - 1) / surfaces_of_a_task, [&](int64_t task, int) {
-    const int64_t end = std::min(roots, (task + 1) * surfaces_of_a_task);
-    for (int64_t k = task * surfaces_of_a_task; k < end; ++k)
-      spread_below(state, static_cast<NodeId>(k), brightness.unit, brightness.spread);
+  for_each_root(state, team, [&](NodeId root) {
+    spread_below(state, root, brightness.unit, brightness.spread);
   });
   spread_to_clusters(state.forest, brightness);
   return brightness;

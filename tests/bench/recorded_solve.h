@@ -34,33 +34,23 @@ inline void prepare(hrad::Solver& solver, const std::string& scene, const Settin
 
 inline Solved recorded_solve(const std::string& scene, const Settings& settings, int ranks) {
   hrad_test::Recorders all(ranks);
-  hrad_test::Hub hub(ranks);
   Solved solved;
-  std::vector<std::exception_ptr> thrown(static_cast<size_t>(ranks));
-  std::vector<std::thread> threads;
-  for (int rank = 0; rank < ranks; ++rank)
-    threads.emplace_back([&, rank] {
-      hrad_test::Recorder recorder(all, rank);
-      hrad_test::RecordingComm comm(hub, rank, recorder);
-      try {
-        hrad::Solver solver(std::shared_ptr<hrad::Comm>(std::shared_ptr<hrad::Comm>(), &comm));
-        hrad::api::agreed(comm, [&] {
-          prepare(solver, scene, settings, 1);
-          recorder.stage_begins(kInitial);
-          solver.partition();
-          recorder.stage_begins("linking");
-          solver.solve();
-          recorder.stage_begins(kAfter);
-          const hrad::Stats stats = solver.stats();
-          if (rank == 0) solved.stats = stats;
-        });
-      } catch (...) {
-        thrown[static_cast<size_t>(rank)] = std::current_exception();
-      }
+  hrad_test::on_threads(ranks, [&](hrad_test::Hub& hub, int rank) {
+    hrad_test::Recorder recorder(all, rank);
+    hrad_test::RecordingComm comm(hub, rank, recorder);
+    hrad::Solver solver(hrad_test::not_owned(comm));
+    solver.set_observer(&recorder);
+    hrad::api::agreed(comm, [&] {
+      prepare(solver, scene, settings, 1);
+      recorder.stage_begins(kInitial);
+      solver.partition();
+      recorder.stage_begins("linking");
+      solver.solve();
+      recorder.stage_begins(kAfter);
+      const hrad::Stats stats = solver.stats();
+      if (rank == 0) solved.stats = stats;
     });
-  for (std::thread& thread : threads) thread.join();
-  for (const std::exception_ptr& exception : thrown)
-    if (exception) std::rethrow_exception(exception);
+  });
   solved.recording = std::move(all.recording);
   return solved;
 }
@@ -70,7 +60,7 @@ inline double wall_of_solve(const std::string& scene, const Settings& settings, 
                             int threads) {
   double seconds = 0;
   hrad_test::on_ranks(ranks, [&](hrad::Comm& comm) {
-    hrad::Solver solver(std::shared_ptr<hrad::Comm>(std::shared_ptr<hrad::Comm>(), &comm));
+    hrad::Solver solver(hrad_test::not_owned(comm));
     hrad::api::agreed(comm, [&] {
       prepare(solver, scene, settings, threads);
       solver.solve();

@@ -1,6 +1,5 @@
 // The replay of recorded solves: schedules small enough to be worked out by hand, and what a
 // recorder sees of loops and exchanges.
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -116,19 +115,16 @@ void spin(double seconds) {
 // Two ranks: a stretch, a loop whose second task is the larger, an exchange.
 void a_recorder_sees_all() {
   Recorders all(2);
-  Hub hub(2);
-  std::vector<std::thread> threads;
-  for (int number = 0; number < 2; ++number)
-    threads.emplace_back([&, number] {
-      Recorder recorder(all, number);
-      RecordingComm comm(hub, number, recorder);
-      recorder.stage_begins("linking");
-      spin(0.02);
-      hrad::ThreadTeam team(1);
-      team.for_each(2, [](int64_t task, int) { spin(task == 1 ? 0.04 : 0.01); });
-      comm.exchange({hrad::Bytes(3), hrad::Bytes(5)});
-    });
-  for (std::thread& thread : threads) thread.join();
+  on_threads(2, [&](Hub& hub, int number) {
+    Recorder recorder(all, number);
+    RecordingComm comm(hub, number, recorder);
+    recorder.stage_begins("linking");
+    spin(0.02);
+    hrad::ThreadTeam team(1);
+    team.set_observer(&recorder);
+    team.for_each(2, [](int64_t task, int) { spin(task == 1 ? 0.04 : 0.01); });
+    comm.exchange({hrad::Bytes(3), hrad::Bytes(5)});
+  });
   const std::vector<Timeline> linking =
       events_of(all.recording, [](const std::string& stage) { return stage == "linking"; });
   for (const Timeline& events : linking) {

@@ -248,7 +248,7 @@ void teams_are_independent() {
   CHECK_EQUAL(sum.load(), int64_t{45});
 }
 
-// The observer of the calling thread is told of its loops and of every task, and of no others'.
+// An observer is told of the loops of its team and of every task, and of no others'.
 void an_observer_is_told() {
   struct Observer : hrad::WorkObserver {
     std::vector<int64_t> loops;
@@ -267,13 +267,11 @@ void an_observer_is_told() {
     Observer observer;
     ThreadTeam team(size);
     const auto nothing = [](int64_t, int) {};
-    hrad::work_observer() = &observer;
+    team.set_observer(&observer);
     team.for_each(100, nothing);
-    std::thread([&] {
-      ThreadTeam other(size);
-      other.for_each(3, nothing);
-    }).join();
-    hrad::work_observer() = nullptr;
+    ThreadTeam other(size);
+    other.for_each(3, nothing);
+    team.set_observer(nullptr);
     team.for_each(7, nothing);
     CHECK((observer.loops == std::vector<int64_t>{100}));
     CHECK_EQUAL(observer.ends, 1);

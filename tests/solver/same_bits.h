@@ -94,8 +94,7 @@ inline bool solve_in(const Case& c, const Surroundings& in, Results& results) {
   std::vector<Results> of_rank(static_cast<size_t>(in.ranks));
   std::vector<uint8_t> possible(of_rank.size(), 0);
   on_ranks(in.ranks, [&](hrad::Comm& comm) {
-    const std::shared_ptr<hrad::Comm> shared(std::shared_ptr<hrad::Comm>(), &comm);
-    hrad::Solver solver(shared);
+    hrad::Solver solver(not_owned(comm));
     const size_t rank = static_cast<size_t>(comm.rank());
     hrad::api::agreed(comm, [&] { possible[rank] = solve_in(solver, c, in, of_rank[rank]); });
   });

@@ -19,7 +19,7 @@ const SolveCase cases[] = {{"furnished-room", "rows", "error", 0.1},
                            {"cornell", "rows", "error", 0.2, "points", 5}};
 
 std::unique_ptr<Solver> solver_on(Comm& comm, const SolveCase& c) {
-  auto solver = std::make_unique<Solver>(std::shared_ptr<Comm>(std::shared_ptr<Comm>(), &comm));
+  auto solver = std::make_unique<Solver>(not_owned(comm));
   solver->set_int("bands", c.bands);
   solver->set_text("linking", c.linking);
   solver->set_text("oracle", c.oracle);

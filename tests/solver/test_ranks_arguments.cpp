@@ -137,25 +137,37 @@ void only_rank_0_has_a_scene() {
   CHECK(sizes == (std::vector<std::string>{"0", "1", "1", "1", "2"}));
 }
 
-// Queries are each rank's own; a bad one fails them all.
+// Queries are each rank's own; a bad one fails them all, and nobody's output is touched.
 void one_query_fails_for_all() {
   const auto answers = solve_together(ranks, [&](SolverRank& one) {
-    double out[3];
+    double out[3] = {-7, -7, -7};
     uint64_t hash = 0;
     one.note(hrad_state_hash(one.solver, &hash));
     one.prepare("furnace", "rows", 0.2);
     one.note(hrad_solve(one.solver));
     one.note(
         hrad_query_patches(one.solver, HRAD_RADIOSITY, HRAD_FRONT, one.rank == 1 ? 99 : 0, 1, out));
+    CHECK_EQUAL(out[0], -7.0);
     one.note(hrad_state_hash(one.solver, one.rank == 2 ? nullptr : &hash));
     one.note(hrad_query_patches(one.solver, HRAD_RADIOSITY, HRAD_FRONT, 0, one.rank == 1 ? 0 : 1,
                                 one.rank == 1 ? nullptr : out));
+    CHECK((out[0] != -7) == (one.rank != 1));
+    // Wrong points and leaves of another rank.
+    out[0] = -7;
+    const int64_t patch = one.rank == 1 ? 1000 : 0;
+    const double uv[] = {0.25, 0.25};
+    one.note(hrad_query_points(one.solver, HRAD_RADIOSITY, HRAD_FRONT, 1, &patch, uv, out));
+    one.note(hrad_query_leaves(one.solver, one.rank == 2 ? -1 : 0, 1, nullptr, nullptr, nullptr,
+                               nullptr, out, nullptr));
+    CHECK_EQUAL(out[0], -7.0);
   });
   const auto errors = errors_of(answers);
-  CHECK_EQUAL(errors.size(), size_t{3});
+  CHECK_EQUAL(errors.size(), size_t{5});
   CHECK_EQUAL(errors[0].status, HRAD_ERROR_STATE);
   CHECK_EQUAL(errors[1].status, HRAD_ERROR_ARGUMENT);
   CHECK_EQUAL(errors[2].status, HRAD_ERROR_ARGUMENT);
+  CHECK_EQUAL(errors[3].status, HRAD_ERROR_ARGUMENT);
+  CHECK_EQUAL(errors[4].status, HRAD_ERROR_ARGUMENT);
 }
 
 // Callbacks that throw, each on one rank: all stop and say so, and can go on.

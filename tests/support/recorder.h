@@ -46,16 +46,14 @@ struct Recorders {
   const double look = clock_seconds();
 };
 
-// Of one rank. Made and used on its thread.
+// Of one rank, whose solver it observes. Made and used on its thread.
 class Recorder final : public hrad::WorkObserver {
  public:
   Recorder(Recorders& all, int rank)
       : all_(all), events_(all.recording.ranks[static_cast<size_t>(rank)]), turn_(all.turn) {
-    hrad::work_observer() = this;
     stage_ = all_.recording.stage_number("before");
     last_ = thread_seconds();
   }
-  ~Recorder() override { hrad::work_observer() = nullptr; }
 
   void stage_begins(const char* name) override {
     end_stretch();

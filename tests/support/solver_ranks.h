@@ -27,7 +27,15 @@ struct Answer {
 class SolverRank {
  public:
   SolverRank(Hub& hub, int rank) : rank(rank) {
-    note(hrad_create_over(new CommThreads(hub, rank), &solver));
+    struct Place {
+      Hub& hub;
+      int rank;
+    } const place{hub, rank};
+    const auto make = [](const void* host) -> hrad::Comm* {
+      const auto* place = static_cast<const Place*>(host);
+      return new CommThreads(place->hub, place->rank);
+    };
+    note(hrad_create_over(make, &place, &solver));
   }
   ~SolverRank() { hrad_destroy(&solver); }
   SolverRank(const SolverRank&) = delete;
@@ -69,8 +77,7 @@ class SolverRank {
 };
 
 // What all ranks have answered, call by call.
-inline std::vector<Answer> solve_together(int ranks,
-                                          const std::function<void(SolverRank&)>& body) {
+inline std::vector<Answer> solve_together(int ranks, const std::function<void(SolverRank&)>& body) {
   Hub hub(ranks);
   std::vector<std::vector<Answer>> of_rank(static_cast<size_t>(ranks));
   std::vector<std::thread> threads;
@@ -89,8 +96,8 @@ inline std::vector<Answer> solve_together(int ranks,
         failed(__FILE__, __LINE__,
                "call " + std::to_string(k) + ": rank " + std::to_string(rank) + " answers " +
                    std::to_string(of_rank[rank][k].status) + " '" + of_rank[rank][k].text +
-                   "', rank 0 " + std::to_string(of_rank[0][k].status) + " '" +
-                   of_rank[0][k].text + "'");
+                   "', rank 0 " + std::to_string(of_rank[0][k].status) + " '" + of_rank[0][k].text +
+                   "'");
   }
   return of_rank[0];
 }
@@ -111,8 +118,7 @@ inline void check_one_error(const std::vector<Answer>& answers, hrad_status stat
       errors[0].text.find(text) != std::string::npos)
     return;
   std::string all;
-  for (const Answer& error : errors)
-    all += std::to_string(error.status) + " '" + error.text + "' ";
+  for (const Answer& error : errors) all += std::to_string(error.status) + " '" + error.text + "' ";
   failed(__FILE__, __LINE__, "wanted one error with '" + text + "', met: " + all);
 }
 

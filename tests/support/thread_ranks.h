@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -111,17 +112,16 @@ class CommThreads : public hrad::Comm {
   std::vector<Bytes> on_the_way_;
 };
 
-// Runs body(comm) on so many ranks at once; then throws what the lowest one threw, if any did. All
-// must end: a rank that fails alone leaves the others waiting.
-inline void on_ranks(int ranks, const std::function<void(hrad::Comm&)>& body) {
+// Runs body(hub, rank) on a thread for each of so many ranks; then throws what the lowest one
+// threw, if any did. All must end: a rank that fails alone leaves the others waiting.
+inline void on_threads(int ranks, const std::function<void(Hub&, int rank)>& body) {
   Hub hub(ranks);
   std::vector<std::thread> threads;
   std::vector<std::exception_ptr> thrown(static_cast<size_t>(ranks));
   for (int rank = 0; rank < ranks; ++rank)
     threads.emplace_back([&, rank] {
-      CommThreads comm(hub, rank);
       try {
-        body(comm);
+        body(hub, rank);
       } catch (...) {
         thrown[rank] = std::current_exception();
       }
@@ -129,6 +129,18 @@ inline void on_ranks(int ranks, const std::function<void(hrad::Comm&)>& body) {
   for (std::thread& thread : threads) thread.join();
   for (const std::exception_ptr& exception : thrown)
     if (exception) std::rethrow_exception(exception);
+}
+
+inline void on_ranks(int ranks, const std::function<void(hrad::Comm&)>& body) {
+  on_threads(ranks, [&](Hub& hub, int rank) {
+    CommThreads comm(hub, rank);
+    body(comm);
+  });
+}
+
+// As a solver takes it, which it must not outlive.
+inline std::shared_ptr<hrad::Comm> not_owned(hrad::Comm& comm) {
+  return {std::shared_ptr<hrad::Comm>(), &comm};
 }
 
 }  // namespace hrad_test

@@ -22,12 +22,8 @@ namespace hrad_test {
 // Gives a leaf four children.
 inline void split_node(hrad::Forest& forest, hrad::NodeId id) {
   const auto first = static_cast<hrad::NodeId>(forest.nodes.size());
-  for (int child = 0; child < 4; ++child) {
-    hrad::Node node = hrad::child_place(forest.nodes[id], child);
-    node.parent = id;
-    forest.nodes.push_back(node);
-  }
-  forest.nodes[id].first_child = first;
+  forest.nodes.resize(forest.nodes.size() + 4);
+  hrad::place_children(forest.nodes, id, first);
 }
 
 // Splits whatever `wanted` says, up to `level`.

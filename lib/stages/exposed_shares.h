@@ -1,0 +1,13 @@
+// How much of elements is exposed, measured by the owners of their surfaces. Floor 7 (stages).
+#pragma once
+
+#include <vector>
+
+#include "stages/state.h"
+
+namespace hrad {
+
+// Collective: all give the same elements.
+void measure_exposure(State& state, const StageTools& tools, const std::vector<NodeId>& elements);
+
+}  // namespace hrad
