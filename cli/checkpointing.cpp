@@ -93,19 +93,29 @@ bool Checkpointing::out_of_time() const {
 }
 
 // Asked with every progress of the first process: writes when it is time, and the solve goes on.
-// Several processes write together, which they can't from here: the solve pauses for it where that
-// loses nothing.
+// Several processes write together, which they can't from here: the solve pauses for it.
 bool Checkpointing::stops(const hrad_progress& progress) {
   if (out_of_time()) return true;
   if (plan_.path.empty()) return false;
-  due_ = signals::take_checkpoint_request() || due_ ||
-         std::chrono::duration<double>(Clock::now() - last_written_).count() >=
-             plan_.interval_seconds;
+  due_ =
+      signals::take_checkpoint_request() || due_ ||
+      std::chrono::duration<double>(Clock::now() - last_written_).count() >= plan_.interval_seconds;
   if (due_ && launcher::several())
-    pauses_ = progress.stage != nullptr && std::strcmp(progress.stage, "sweep") == 0;
+    pauses_ = may_pause(progress);
   else if (due_)
     write_on_the_way();
   return pauses_;
+}
+
+// Not before the solve has gone on from where it paused last, or it never would; a measurement
+// would begin anew.
+bool Checkpointing::may_pause(const hrad_progress& progress) {
+  if (progress.stage == nullptr || std::strcmp(progress.stage, "measure") == 0 ||
+      (progress.iteration <= paused_iteration_ && progress.fraction <= paused_fraction_))
+    return false;
+  paused_iteration_ = progress.iteration;
+  paused_fraction_ = progress.fraction;
+  return true;
 }
 
 int Checkpointing::solve() {

@@ -29,6 +29,7 @@ class Checkpointing {
   void restart_automatically();
   bool restart_from(const std::string& path);
   bool stops(const hrad_progress& progress);
+  bool may_pause(const hrad_progress& progress);
   bool out_of_time() const;
   void write();
   void write_on_the_way();
@@ -40,8 +41,10 @@ class Checkpointing {
   const Clock::time_point start_ = Clock::now();
   Clock::time_point last_written_ = Clock::now();
   bool begun_ = false;
-  bool due_ = false;     // a checkpoint on the way
-  bool pauses_ = false;  // the solve was stopped to write it
+  bool due_ = false;               // a checkpoint on the way
+  bool pauses_ = false;            // the solve was stopped to write it
+  int64_t paused_iteration_ = -1;  // where it was the last time
+  double paused_fraction_ = -1;
   int64_t sweeps_written_ = -1;  // what the file under the checkpoint's name has, -1: not ours
   int32_t converged_written_ = 0;
 };

@@ -13,4 +13,7 @@ struct Link {
 };
 static_assert(sizeof(Link) == 8, "a link is eight bytes");
 
+// No surface sends more than all of its light to one receiver; form factors have some noise.
+constexpr float largest_weight = 4;
+
 }  // namespace hrad

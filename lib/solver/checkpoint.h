@@ -26,7 +26,7 @@ struct CheckpointView {
   const Scene& scene;
   bool begun;                  // a solve was: the result parameters hold
   const State* state;          // nullptr: nothing is linked
-  const LinkJournal* journal;  // of linking that is under way; nullptr: none
+  const LinkJournal* journal;  // of linking or refinement that is under way; nullptr: none
   int64_t rays, pairs;
   const SolveProgress& progress;
   const Stats& stats;
@@ -49,7 +49,7 @@ struct CheckpointContent {
   Inspection inspection;
   int64_t rays = 0, pairs = 0;
   uint64_t key_of_steps = 0;
-  std::vector<LinkStep> steps;  // of linking that was under way
+  std::vector<LinkStep> steps;  // of linking or refinement that was under way
   std::string origin;           // the library that wrote it, and its engine
   std::vector<std::pair<std::string, int64_t>> section_bytes;  // as stored
 };

@@ -136,14 +136,15 @@ void CheckpointSource::read_table() {
     fail_format(head_place, "the file has %llu bytes and is cut short",
                 static_cast<unsigned long long>(size));
   PackedReader head(content_.data() + mark_bytes, head_bytes - mark_bytes, head_place);
-  const uint32_t version = head.u32(), sections = head.u32();
+  version_ = head.u32();
+  const uint32_t sections = head.u32();
   const uint64_t stated = head.u64();
   const uint32_t sum_of_table = head.u32();
   if (head.u32() != checksum(0, content_.data(), checked_head_bytes))
     fail_format(head_place, "its checksum is wrong: the file is damaged");
-  if (version != checkpoint_version)
-    fail_format(head_place, "its format has version %u, and this library reads version %u", version,
-                checkpoint_version);
+  if (version_ < 1 || version_ > checkpoint_version)
+    fail_format(head_place, "its format has version %u, and this library reads versions 1 to %u",
+                version_, checkpoint_version);
   if (stated != size)
     fail_format(head_place, "the file has %llu bytes and should have %llu: it was %s",
                 static_cast<unsigned long long>(size), static_cast<unsigned long long>(stated),

@@ -13,7 +13,8 @@
 
 namespace hrad {
 
-constexpr uint32_t checkpoint_version = 1;
+// Files of version 1 differ in their steps, which are left out in reading.
+constexpr uint32_t checkpoint_version = 2;
 
 // In the order in which they stand in a file. Each is cut into runs of so many items, whoever
 // writes it.
@@ -75,6 +76,7 @@ class CheckpointSource {
   // content must outlive this.
   explicit CheckpointSource(const std::string& content);
 
+  uint32_t version() const { return version_; }
   const SectionEntry& entry(Section section) const { return table_[static_cast<size_t>(section)]; }
   // Where a section begins, for messages.
   FilePlace place(Section section) const { return {section_name(section), entry(section).offset}; }
@@ -88,6 +90,7 @@ class CheckpointSource {
   void check_sums() const;
 
   const std::string& content_;
+  uint32_t version_ = 0;
   std::vector<SectionEntry> table_;
 };
 

@@ -57,7 +57,10 @@ class Reading {
         [&](int64_t first, int64_t end, PackedReader& bytes) { light.unpack(bytes, first, end); });
     light.finish(source_.place(Section::light));
     source_.read(Section::steps, sizes_.steps, [&](int64_t, int64_t, PackedReader& bytes) {
-      content_.steps.push_back(unpack_step(bytes));
+      if (source_.version() == 1)
+        bytes.raw(bytes.left());  // linking does them again
+      else
+        content_.steps.push_back(unpack_step(bytes));
     });
   }
 

@@ -13,8 +13,6 @@ namespace {
 // The weakest link of a row stands for so many rays at the most, or weights are kept as they are.
 constexpr int most_rays_of_the_weakest = 4;
 constexpr int64_t most_rays = int64_t{1} << 30;
-// No surface sends more than all of its light to one receiver; form factors have some noise.
-constexpr float largest_weight = 4;
 
 float weight_of_rays(int64_t rays, int64_t all) {
   return static_cast<float>(static_cast<double>(rays) / static_cast<double>(all));

@@ -55,7 +55,8 @@ CheckpointSizes sizes_of(const CheckpointView& view) {
   s.patches = scene.patch_count();
   s.steps = view.journal ? static_cast<int64_t>(view.journal->steps().size()) : 0;
   if (!state) return s;
-  const auto nodes = static_cast<int64_t>(state->forest.nodes.size());
+  const auto nodes = state->nodes_in_order >= 0 ? state->nodes_in_order
+                                                : static_cast<int64_t>(state->forest.nodes.size());
   s.surfaces = state->forest.surface_count();
   s.clusters = static_cast<int64_t>(state->forest.clusters.clusters.size());
   s.families = (nodes - s.surfaces - s.clusters) / 4;
@@ -96,7 +97,7 @@ CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source
       {Section::point_links, s.points, 1},
       {Section::point_links, s.point_links, 1},
       {Section::own_points, s.own_points, 9},
-      {Section::steps, s.steps, 3},
+      {Section::steps, s.steps, 2},
       {Section::light, s.nodes(), 8 * static_cast<uint64_t>(s.bands)},
   };
   for (const auto& row : least)
@@ -111,7 +112,7 @@ CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source
       (s.leaves_of_points != 0 && s.leaves_of_points != nodes) ||
       (s.leaves_of_points != 0 && (s.cells == 0 || s.receivers_of_means == 0)) ||
       (s.leaves_of_points == 0 && (s.points > 0 || s.own_points > 0)) ||
-      (s.clusters > 0 && s.clusters >= s.surfaces) || (s.steps > 0 && nodes > 0))
+      (s.clusters > 0 && s.clusters >= s.surfaces))
     fail_format(bytes.place(),
                 "%lld patches, %lld surfaces, %lld clusters, %lld elements and "
                 "what is known of them don't fit together",
@@ -182,7 +183,7 @@ void pack_progress(const CheckpointView& view, PackedBytes& bytes) {
     bytes.varint(static_cast<uint64_t>(count));
   bytes.u64(p.light_hash);
   bytes.u64(p.mesh_hash);
-  bytes.u64(view.journal ? view.journal->key() : 0);
+  bytes.u64(view.journal && !view.journal->empty() ? view.journal->key() : 0);
   for (double number :
        {p.scale, p.accuracy_reached, p.convergence.tolerance(), view.stats.error_estimate,
         view.stats.error_standard_error, view.balance.back_share, view.inspection.back_share,

@@ -14,7 +14,7 @@ struct CheckpointSizes {
   int64_t receivers_of_means = 0, mean_links = 0;  // nodes, or 0 where there is no direct light
   int64_t leaves_of_points = 0;                    // nodes, or 0 where light is known at no points
   int64_t points = 0, point_links = 0, own_points = 0;
-  int64_t steps = 0;  // of linking that is under way
+  int64_t steps = 0;  // of linking or refinement that is under way
   int64_t nodes() const { return surfaces + clusters + 4 * families; }
 };
 

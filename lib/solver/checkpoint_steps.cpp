@@ -1,48 +1,44 @@
-// Steps of linking that is under way, as runs of a checkpoint and back. Floor 8 (solver).
-#include <cmath>
+// Steps of a stage that is under way, as runs of a checkpoint and back. Floor 8 (solver).
 #include <limits>
 
-#include "solver/checkpoint_runs.h"
 #include "solver/checkpoint_sizes.h"
 
 namespace hrad {
 
 void pack_step(const LinkStep& step, PackedBytes& bytes) {
-  std::vector<size_t> first(1, 0);
-  for (uint32_t count : step.counts) first.push_back(first.back() + count);
-  bytes.varint(static_cast<uint64_t>(step.rays));
-  bytes.varint(step.counts.size());
-  bytes.byte(!step.values.empty());
-  std::vector<uint32_t> values;
-  for (float value : step.values) values.push_back(bits_of(value));
-  bytes.planes(values);
-  const auto run_of = [&](int64_t k) {
-    const auto run = static_cast<size_t>(k);
-    return Span<const Link>(step.links.data() + first[run], step.counts[run]);
-  };
-  pack_runs(0, static_cast<int64_t>(step.counts.size()), run_of, bytes);
+  bytes.varint(step.pass);
+  bytes.varint(step.names.size());
+  uint64_t before = 0;
+  for (uint64_t name : step.names) {
+    bytes.signed_varint(static_cast<int64_t>(name - before));
+    before = name;
+  }
+  before = 0;
+  for (uint64_t end : step.ends) {
+    bytes.varint(end - before);
+    before = end;
+  }
+  bytes.raw(std::string(step.results.begin(), step.results.end()));
 }
 
 LinkStep unpack_step(PackedReader& bytes) {
-  constexpr int64_t most = std::numeric_limits<int64_t>::max();
-  constexpr NodeId most_nodes = std::numeric_limits<NodeId>::max();
+  constexpr int64_t most = std::numeric_limits<uint32_t>::max();
   LinkStep step;
-  step.rays = bytes.count("the number of a step's rays", 0, most);
-  const int64_t runs =
-      bytes.count("the number of a step's runs", 0, static_cast<int64_t>(bytes.left()));
-  std::vector<uint32_t> values;
-  if (bytes.flag("whether a step has values")) bytes.planes(static_cast<size_t>(runs), values);
-  for (uint32_t bits : values) {
-    if (!std::isfinite(float_of(bits)))
-      fail_format(bytes.place(), "a value of a step is %g", static_cast<double>(float_of(bits)));
-    step.values.push_back(float_of(bits));
+  step.pass = static_cast<uint32_t>(bytes.count("the pass of a step", 0, most));
+  const auto left = [&] { return static_cast<int64_t>(bytes.left()); };
+  const int64_t tasks = bytes.count("the number of a step's tasks", 0, left());
+  uint64_t name = 0;
+  for (int64_t k = 0; k < tasks; ++k) {
+    name += static_cast<uint64_t>(bytes.signed_varint());
+    step.names.push_back(name);
   }
-  // Nodes are not known yet: linking looks at every source before it takes it.
-  int64_t left = most;
-  unpack_runs(0, runs, most_nodes, left, bytes, [&](Span<const Link> run) {
-    step.counts.push_back(static_cast<uint32_t>(run.size()));
-    step.links.insert(step.links.end(), run.begin(), run.end());
-  });
+  int64_t end = 0;
+  for (int64_t k = 0; k < tasks; ++k) {
+    end += bytes.count("the bytes of a task's result", 0, left() - end);
+    step.ends.push_back(static_cast<uint64_t>(end));
+  }
+  const std::string results = bytes.raw(static_cast<size_t>(end));
+  step.results.assign(results.begin(), results.end());
   return step;
 }
 

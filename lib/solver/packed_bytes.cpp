@@ -145,11 +145,13 @@ double PackedReader::finite(const char* what, double lowest, double highest) {
 }
 
 std::string PackedReader::text(size_t longest) {
-  const auto size =
-      static_cast<size_t>(count("the length of a text", 0, static_cast<int64_t>(longest)));
-  need(size);
-  std::string result(next_, size);
-  next_ += size;
+  return raw(static_cast<size_t>(count("the length of a text", 0, static_cast<int64_t>(longest))));
+}
+
+std::string PackedReader::raw(size_t count) {
+  need(count);
+  std::string result(next_, count);
+  next_ += count;
   return result;
 }
 

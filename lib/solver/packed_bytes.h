@@ -77,6 +77,7 @@ class PackedReader {
   bool flag(const char* what);
   double finite(const char* what, double lowest, double highest);
   std::string text(size_t longest);
+  std::string raw(size_t count);
   void planes(size_t count, std::vector<uint32_t>& values);
   void planes(size_t count, std::vector<uint64_t>& values);
   void finish() const;  // FORMAT when bytes are left

@@ -86,8 +86,8 @@ constexpr ParamRow kTable[] = {
     int_row("max_memory", false, &Params::max_memory, 0, kLargestExact, "bytes",
             "Memory over which a solve stops with an error; 0 sets no limit."),
     int_row("resumable", false, &Params::resumable, 0, 1, "",
-            "1 remembers what linking by rows has done so far, in memory, so that a stop and a "
-            "checkpoint keep it."),
+            "1 remembers what linking or a round of refinement has done so far, in memory, so that "
+            "a stop and a checkpoint keep it."),
     int_row(
         "checkpoint_keep", false, &Params::checkpoint_keep, 0, 1000, "files",
         "How many older checkpoints stay beside a new one, as FILE.prev, FILE.prev2 and so on."),

@@ -31,7 +31,7 @@ struct Params {
   int64_t bind = 0;                      // 1: pin threads
   std::string partition = "cost";        // cost | grid
   int64_t max_memory = 0;                // bytes; 0: no limit
-  int64_t resumable = 0;                 // 1: linking by rows remembers its steps
+  int64_t resumable = 0;                 // 1: linking and refinement remember their steps
   int64_t checkpoint_keep = 1;           // older checkpoints kept beside a new one
   std::string instruction_set = "auto";  // auto | sse2 | avx2 | avx512: forces the ray kernels
 };

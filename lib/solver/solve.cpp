@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "machine/process_usage.h"
 #include "solver/progress_clock.h"
 #include "solver/same_everywhere.h"
@@ -26,6 +27,13 @@ namespace {
 // measurement is a sample.
 constexpr double surely_missed = 2, least_measurable = 0.02;
 constexpr int most_tightenings = 2;
+
+uint64_t hash_of_radiosity(const State& state) {
+  Hasher hash;
+  for (const auto* light : {&state.radiosity, &state.irradiance})
+    for (float value : *light) hash.add(value);
+  return hash.value();
+}
 
 void measure_roots(State& state, const StageTools& tools) {
   std::vector<NodeId> roots;
@@ -155,9 +163,7 @@ class Solver::Run {
 
   bool link() {
     const auto start = std::chrono::steady_clock::now();
-    state_.journal.begin(hash_of_linking(params_, solution_.light_hash, solution_.scale),
-                         state_.rays);
-    state_.journal.recording = params_.resumable != 0;
+    begin_journal(hash_of_linking(params_, solution_.light_hash, solution_.scale));
     const bool done = by_rows_                        ? link_by_rows()
                       : params_.linking == "clusters" ? link_by_clusters()
                                                       : link_by_pairs();
@@ -167,9 +173,15 @@ class Solver::Run {
       state_.rays = state_.journal.rays_before;
       return false;
     }
+    state_.journal.clear();
     solution_.linked = true;
     solution_.rounds_done = 0;
     return sweep(by_rows_ ? first_rounds : 0);
+  }
+
+  void begin_journal(uint64_t key) {
+    state_.journal.begin(key, state_.rays);
+    state_.journal.recording = params_.resumable != 0;
   }
 
   bool link_by_pairs() {
@@ -210,11 +222,15 @@ class Solver::Run {
     // The last round tells best what surfaces cost; before the first one there are their links.
     if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
     rebalance(state_, exchange_, work_);
+    // Every decision of a round follows from the light that it begins with.
+    begin_journal(mix(hash_of_linking(params_, solution_.light_hash, solution_.scale),
+                      static_cast<uint64_t>(number), hash_of_radiosity(state_)));
     const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
     const bool done = refine_links(state_, tools(number), brightness, &work_);
     solver_.stats_.seconds_iterative +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!done) return false;
+    state_.journal.clear();
     ++solver_.stats_.rounds;
     solution_.rounds_done = number;
     return sweep(number);

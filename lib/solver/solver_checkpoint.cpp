@@ -72,9 +72,8 @@ void Solver::write_checkpoint(const std::string& path) {
   WholeFile file(path);
   hrad::write_checkpoint(
       file,
-      {params_, scene_, begun_, linked ? &s->state : nullptr,
-       s && !linked && comm_->alone() ? &s->state.journal : nullptr, rays, pairs, *progress, stats_,
-       s ? s->balance : no_balance, s ? s->inspection : no_inspection},
+      {params_, scene_, begun_, linked ? &s->state : nullptr, s ? &s->state.journal : nullptr, rays,
+       pairs, *progress, stats_, s ? s->balance : no_balance, s ? s->inspection : no_inspection},
       s && !solving_ ? s->team.get() : nullptr);
   comm_->all_go_on();
   file.commit_keeping(static_cast<int>(params_.checkpoint_keep));
@@ -93,9 +92,8 @@ void Solver::take_over(CheckpointContent& content) {
   // Counts are added up over all ranks.
   state.rays = comm_->rank() == 0 ? content.rays : 0;
   state.pairs = comm_->rank() == 0 ? content.pairs : 0;
-  if (comm_->alone())
-    state.journal =
-        LinkJournal::restored(content.key_of_steps, content.rays, std::move(content.steps));
+  state.journal =
+      LinkJournal::restored(content.key_of_steps, content.rays, std::move(content.steps));
   if (!content.state) return;
   const int64_t before = bytes_of(state);
   state.forest = std::move(content.state->forest);

@@ -1,6 +1,7 @@
 // Passes over the levels of clusters. Floor 7 (stages).
 #include "stages/cluster_round.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -15,9 +16,25 @@ struct Task {
   std::vector<NodeId> met;
 };
 
+void add_result(LinkStep& step, uint64_t name, const ClusterResult& result) {
+  put(step.results, &result.rays, 1);
+  put_list(step.results, result.run);
+  put_list(step.results, result.down);
+  step.end_task(name);
+}
+
+// False: that is no result of a cluster.
+bool take_result(KnownResult& known, size_t nodes, ClusterResult& result) {
+  const auto is_node = [&](NodeId id) { return id >= 0 && static_cast<size_t>(id) < nodes; };
+  result = ClusterResult{};
+  return known.take(&result.rays, 1) && result.rays >= 0 && known.take_list(result.run) &&
+         known.take_list(result.down) && known.at_end() && are_links(result.run, is_node) &&
+         std::all_of(result.down.begin(), result.down.end(), is_node);
+}
+
 }  // namespace
 
-bool refine_clusters(const State& state, const StageTools& tools, const Brightness& brightness,
+bool refine_clusters(State& state, const StageTools& tools, const Brightness& brightness,
                      const EndPointsTable& points, Span<const NodeId> met, StageMemory& memory,
                      ClusterRound& round) {
   const Forest& forest = state.forest;
@@ -34,16 +51,30 @@ bool refine_clusters(const State& state, const StageTools& tools, const Brightne
     std::vector<size_t> own;
     for (size_t k = 0; k < tasks.size(); ++k)
       if (tools.exchange.mine(forest, tasks[k].cluster)) own.push_back(k);
-    const bool going_on = tools.team.for_each(
-        static_cast<int64_t>(own.size()),
+    std::vector<uint8_t> is_new(tasks.size(), 0);
+    const auto name_of = [&](size_t k) { return static_cast<uint64_t>(tasks[k].cluster); };
+    state.journal.next_pass();
+    const bool going_on = for_each_recorded(
+        tools.team, state.journal.recording, static_cast<int64_t>(own.size()),
         [&](int64_t turn, int worker) {
           const size_t k = own[static_cast<size_t>(turn)];
-          results[k] = refiners[worker]->refine(tasks[k].cluster, tasks[k].met);
+          is_new[k] = !state.journal.known(name_of(k), [&](KnownResult& known) {
+            return take_result(known, forest.nodes.size(), results[k]);
+          });
+          if (is_new[k]) results[k] = refiners[worker]->refine(tasks[k].cluster, tasks[k].met);
           memory.take(static_cast<int64_t>(results[k].run.size() * sizeof(Link) +
                                            2 * results[k].down.size() * sizeof(NodeId)),
                       "links of clusters");
         },
-        [&](int64_t) { return tools.progress(0); });
+        [&](int64_t) { return tools.progress(0); },
+        [&](int64_t turn, int64_t end) {
+          LinkStep step;
+          for (; turn < end; ++turn) {
+            const size_t k = own[static_cast<size_t>(turn)];
+            if (is_new[k]) add_result(step, name_of(k), results[k]);
+          }
+          state.journal.record(std::move(step));
+        });
     if (!tools.exchange.all_go_on(going_on)) return false;
     std::vector<std::vector<Link>> runs;
     std::vector<std::vector<NodeId>> down;

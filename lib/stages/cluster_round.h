@@ -17,8 +17,8 @@ struct ClusterRound {
 };
 
 // One pass for each level of clusters; a task is one cluster, which reads the frozen state. met: by
-// the top from outside. False: stopped by tools.progress.
-bool refine_clusters(const State& state, const StageTools& tools, const Brightness& brightness,
+// the top from outside. False: stopped by tools.progress. Of the state only the journal changes.
+bool refine_clusters(State& state, const StageTools& tools, const Brightness& brightness,
                      const EndPointsTable& points, Span<const NodeId> met, StageMemory& memory,
                      ClusterRound& round);
 

@@ -11,12 +11,13 @@
 #include "stages/exchange.h"
 #include "stages/open_cubes.h"
 #include "stages/point_numbers.h"
+#include "stages/task_names.h"
 
 namespace hrad {
 namespace {
 
 constexpr size_t corners_of_a_task = 16;
-// Sampled together, a second's work: what a stop in their midst loses.
+// Sampled together, about a second's work.
 constexpr size_t corners_of_a_step = 16384;
 // Corners are moved into their patch by this share of the way to its middle, so that none lies in
 // the plane of a wall, and by so many ray offsets at the most.
@@ -67,13 +68,13 @@ CornerSampler::Wanted CornerSampler::wanted_of(uint64_t key) const {
   const LatticePoint point = point_of_corner(key);
   const Surface& s = state_.forest.surfaces[surface];
   return {surface, mix(key_of_corner(s.patch * 2 + s.side, point), seed_),
-          moved_inwards(surface, point_of(surface, point))};
+          name_of_corner(surface, point), moved_inwards(surface, point_of(surface, point))};
 }
 
 CornerSampler::Wanted CornerSampler::own_of(NodeId element, int which, Vec3 place) const {
   const Node& node = state_.forest.nodes[element];
   return {node.surface, mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(which)),
-          place};
+          name_of_element(state_.forest, element, which), place};
 }
 
 int32_t CornerSampler::add(NodeId element, int which, Vec3 place) {
@@ -117,6 +118,7 @@ void CornerSampler::count_memory() {
 }
 
 bool CornerSampler::sample() {
+  state_.journal.next_pass();
   count_memory();
   const size_t count = wanted_.size();
   state_.rays += open_cubes(
@@ -143,35 +145,37 @@ bool CornerSampler::sample() {
   return true;
 }
 
-// The points from first to end-1, unless they were sampled before.
+// The points from first to end-1.
 bool CornerSampler::sample_some(size_t first, size_t end) {
   const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
-  if (const LinkStep* done = state_.journal.done(end - first, true, is_emitter)) {
-    put(first, *done);
-    return true;
-  }
   const size_t first_wanted = value_.size() - wanted_.size(), first_part = parts_.size();
   const size_t tasks = pieces_of(end - first, corners_of_a_task);
   parts_.resize(first_part + tasks);
-  std::vector<int64_t> rays(tasks, 0);
-  const bool going_on = tools_.team.for_each(
-      static_cast<int64_t>(tasks),
+  std::vector<int64_t> rays(end - first, 0);
+  std::vector<uint8_t> is_new(end - first, 0);  // what is sealed, or known, is not
+  const auto sample = [&](size_t k, std::vector<Link>& links) {
+    const Wanted& wanted = wanted_[k - first_wanted];
+    if (is_sealed(wanted.surface, wanted.place)) return sealed;
+    const size_t before = links.size();
+    is_new[k - first] = !state_.journal.known_run(wanted.name, is_emitter, links, rays[k - first]);
+    if (is_new[k - first]) rays[k - first] = light_.sample(point_of(wanted), wanted.key, links);
+    double value = 0;
+    for (size_t l = before; l < links.size(); ++l)
+      value += static_cast<double>(links[l].weight) * brightness_.of_node[links[l].source];
+    return value;
+  };
+  const auto first_of = [&](int64_t task) {
+    return std::min(end, first + static_cast<size_t>(task) * corners_of_a_task);
+  };
+  const bool going_on = for_each_recorded(
+      tools_.team, state_.journal.recording, static_cast<int64_t>(tasks),
       [&](int64_t task, int) {
         std::vector<Link>& links = parts_[first_part + static_cast<size_t>(task)];
         size_t count_of[corners_of_a_task] = {};
-        const size_t from = first + static_cast<size_t>(task) * corners_of_a_task;
-        const size_t to = std::min(end, from + corners_of_a_task);
+        const size_t from = first_of(task), to = first_of(task + 1);
         for (size_t k = from; k < to; ++k) {
-          const Wanted& wanted = wanted_[k - first_wanted];
           const size_t before = links.size();
-          double value = sealed;
-          if (!is_sealed(wanted.surface, wanted.place)) {
-            rays[task] += light_.sample(point_of(wanted), wanted.key, links);
-            value = 0;
-            for (size_t l = before; l < links.size(); ++l)
-              value += static_cast<double>(links[l].weight) * brightness_.of_node[links[l].source];
-          }
-          value_[k] = static_cast<float>(value);
+          value_[k] = static_cast<float>(sample(k, links));
           count_of[k - from] = links.size() - before;
         }
         links.shrink_to_fit();
@@ -184,40 +188,19 @@ bool CornerSampler::sample_some(size_t first, size_t end) {
                                                               static_cast<double>(end - first) /
                                                               static_cast<double>(tasks);
         return tools_.progress(known / static_cast<double>(std::max(expected_, asked())));
+      },
+      [&](int64_t task, int64_t end_task) {
+        LinkStep step;
+        for (size_t k = first_of(task); k < first_of(end_task); ++k)
+          if (is_new[k - first])
+            step.add_run(wanted_[k - first_wanted].name, links_[k], rays[k - first]);
+        state_.journal.record(std::move(step));
       });
   if (!going_on) return false;
-  int64_t all_rays = 0;
-  for (int64_t r : rays) all_rays += r;
-  state_.rays += all_rays;
+  for (int64_t r : rays) state_.rays += r;
   sampled_ = end;
   for (size_t part = first_part; part < parts_.size(); ++part) count_links(parts_[part].size());
-  if (state_.journal.recording) state_.journal.record(step_of(first, end, all_rays));
   return true;
-}
-
-LinkStep CornerSampler::step_of(size_t first, size_t end, int64_t rays) const {
-  LinkStep step;
-  step.rays = rays;
-  step.values.assign(&value_[first], &value_[first] + (end - first));
-  for (size_t k = first; k < end; ++k) {
-    step.counts.push_back(static_cast<uint32_t>(links_[k].size()));
-    step.links.insert(step.links.end(), links_[k].begin(), links_[k].end());
-  }
-  return step;
-}
-
-// Of the points from `first` on.
-void CornerSampler::put(size_t first, const LinkStep& step) {
-  parts_.push_back(step.links);
-  const Link* next = parts_.back().data();
-  for (size_t k = 0; k < step.counts.size(); ++k) {
-    value_[first + k] = step.values[k];
-    links_[first + k] = {next, step.counts[k]};
-    next += step.counts[k];
-  }
-  sampled_ = first + step.counts.size();
-  state_.rays += step.rays;
-  count_links(step.links.size());
 }
 
 void CornerSampler::count_links(size_t more) {

@@ -61,15 +61,13 @@ class CornerSampler {
  private:
   struct Wanted {
     int32_t surface;
-    uint64_t key;
+    uint64_t key, name;  // what it draws by, and as a task
     Vec3 place;
   };
   Wanted wanted_of(uint64_t key) const;
   Wanted own_of(NodeId element, int which, Vec3 place) const;
   OrientedPoint point_of(const Wanted& wanted) const;
   bool sample_some(size_t first, size_t end);
-  void put(size_t first, const LinkStep& step);
-  LinkStep step_of(size_t first, size_t end, int64_t rays) const;
   void count_links(size_t more);
   void count_memory();
   Vec3 point_of(int32_t surface, LatticePoint point) const;

@@ -38,7 +38,6 @@ class LeafLight {
   Shares shares_of_mean(NodeId leaf, int32_t centroid) const;
   std::vector<OrientedPoint> points_over(NodeId leaf, double large) const;
   void add_up(std::vector<Link>& all, const OrientedPoint& middle, std::vector<Link>& run) const;
-  void put_means(const std::vector<NodeId>& leaves, size_t first, const LinkStep& step);
   void add_up_means(const std::vector<NodeId>& leaves, const std::vector<int32_t>& centroids);
 
   State& state_;

@@ -10,6 +10,7 @@
 #include "stages/exchange.h"
 #include "stages/leaf_light.h"
 #include "stages/state_memory.h"
+#include "stages/task_names.h"
 
 namespace hrad {
 namespace {
@@ -40,19 +41,8 @@ std::vector<OrientedPoint> LeafLight::points_over(NodeId leaf, double large) con
   return points;
 }
 
-// The means of the leaves from `first` on.
-void LeafLight::put_means(const std::vector<NodeId>& leaves, size_t first, const LinkStep& step) {
-  std::vector<LinkTable::NewRun> runs;
-  const Link* next = step.links.data();
-  for (uint32_t count : step.counts) {
-    runs.push_back({leaves[first++], {next, count}});
-    next += count;
-  }
-  state_.direct.mean.replace(std::move(runs), &tools_.team);
-  state_.rays += step.rays;
-}
-
 bool LeafLight::name_means(const DirectLight& light, double large) {
+  state_.journal.next_pass();
   const std::vector<NodeId> leaves = new_leaves();
   const size_t count = leaves.size();
   for (size_t first = 0; first < count; first += leaves_of_a_batch) {
@@ -76,41 +66,45 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
     state_.rays += open_cubes(
         grid_, all.size(), [&](size_t k) { return all[k]; }, tools_);
     const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
-    if (const LinkStep* done = state_.journal.done(some, false, is_emitter)) {
-      put_means(leaves, first, *done);
-      continue;
-    }
     std::vector<std::vector<Link>> runs(some);
     std::vector<int64_t> rays(some, 0);
+    std::vector<uint8_t> is_new(some, 0);
+    const auto name_of = [&](size_t k) { return name_of_element(forest_, leaves[first + k]); };
     StageMemory memory(state_);
-    const bool going_on = tools_.team.for_each(
-        static_cast<int64_t>(some),
+    const bool going_on = for_each_recorded(
+        tools_.team, state_.journal.recording, static_cast<int64_t>(some),
         [&](int64_t turn, int) {
           const size_t k = static_cast<size_t>(turn);
           if (!is_mine(k)) return;
-          const NodeId leaf = leaves[first + k];
-          const uint64_t key = key_of(forest_, forest_.nodes[leaf]);
-          std::vector<Link> links;
-          for (size_t p = 0; p < points[k].size(); ++p)
-            rays[k] += light.sample(points[k][p], mix(key, tools_.oracle.seed, p), links);
-          for (Link& link : links) link.weight /= static_cast<float>(points[k].size());
-          add_up(links, middle_of(forest_, leaf), runs[k]);
+          is_new[k] = !state_.journal.known_run(name_of(k), is_emitter, runs[k], rays[k]);
+          if (is_new[k]) {
+            const uint64_t key = key_of(forest_, forest_.nodes[leaves[first + k]]);
+            std::vector<Link> links;
+            for (size_t p = 0; p < points[k].size(); ++p)
+              rays[k] += light.sample(points[k][p], mix(key, tools_.oracle.seed, p), links);
+            for (Link& link : links) link.weight /= static_cast<float>(points[k].size());
+            add_up(links, middle_of(forest_, leaves[first + k]), runs[k]);
+          }
           memory.take(static_cast<int64_t>(runs[k].capacity() * sizeof(Link)),
                       "direct light of leaves");
         },
         [&](int64_t done) {
           return tools_.progress((static_cast<double>(first) + static_cast<double>(done)) /
                                  static_cast<double>(count));
+        },
+        [&](int64_t turn, int64_t end) {
+          LinkStep step;
+          for (size_t k = static_cast<size_t>(turn); k < static_cast<size_t>(end); ++k)
+            if (is_new[k]) step.add_run(name_of(k), runs[k], rays[k]);
+          state_.journal.record(std::move(step));
         });
     if (!tools_.exchange.all_go_on(going_on)) return false;
-    LinkStep step;
+    std::vector<LinkTable::NewRun> all_runs;
     for (size_t k = 0; k < some; ++k) {
-      step.rays += rays[k];
-      step.counts.push_back(static_cast<uint32_t>(runs[k].size()));
-      step.links.insert(step.links.end(), runs[k].begin(), runs[k].end());
+      state_.rays += rays[k];
+      all_runs.push_back({leaves[first + k], runs[k]});
     }
-    put_means(leaves, first, step);
-    state_.journal.record(std::move(step));
+    state_.direct.mean.replace(std::move(all_runs), &tools_.team);
   }
   return true;
 }

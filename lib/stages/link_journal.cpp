@@ -1,52 +1,80 @@
-// Recording and replaying. Floor 7 (stages).
+// Recording, and finding again. Floor 7 (stages).
 #include "stages/link_journal.h"
 
 #include <algorithm>
-#include <numeric>
+#include <chrono>
+#include <cstring>
+
+#include "base/hash.h"
 
 namespace hrad {
 namespace {
 
+// What a process that dies may lose of a stage, and for how long threads don't wait for each other.
+constexpr double seconds_of_a_turn = 2;
+
 int64_t bytes_of(const LinkStep& step) {
-  return static_cast<int64_t>(step.counts.capacity() * sizeof step.counts[0] +
-                              step.links.capacity() * sizeof step.links[0] +
-                              step.values.capacity() * sizeof step.values[0]);
+  return static_cast<int64_t>((step.names.capacity() + step.ends.capacity()) * sizeof(uint64_t) +
+                              step.results.capacity());
 }
 
 }  // namespace
 
-void LinkStep::append(const LinkStep& more) {
-  counts.insert(counts.end(), more.counts.begin(), more.counts.end());
-  links.insert(links.end(), more.links.begin(), more.links.end());
-  values.insert(values.end(), more.values.begin(), more.values.end());
-  rays += more.rays;
-}
-
 void LinkJournal::begin(uint64_t key, int64_t rays) {
+  // Results are kept as they lie in memory: a machine of another byte order has its own.
+  const uint32_t one = 1;
+  uint8_t first_byte;
+  std::memcpy(&first_byte, &one, 1);
+  key = mix(key, first_byte);
   if (key != key_) clear();
   key_ = key;
   rays_before = rays;
-  next_ = 0;
+  pass_ = 0;
+  known_.clear();
 }
 
-const LinkStep* LinkJournal::done(size_t runs, bool with_values,
-                                  const std::function<bool(NodeId)>& is_source) {
-  if (next_ >= steps_.size()) return nullptr;
-  const LinkStep& step = steps_[next_];
-  const bool fits =
-      step.counts.size() == runs && step.values.size() == (with_values ? runs : 0) &&
-      std::accumulate(step.counts.begin(), step.counts.end(), size_t{0}) == step.links.size() &&
-      std::all_of(step.links.begin(), step.links.end(),
-                  [&](const Link& link) { return is_source(link.source); });
-  if (fits) return &steps_[next_++];
-  steps_.resize(next_);
-  return nullptr;
+void LinkJournal::next_pass() {
+  ++pass_;
+  known_.clear();
+  for (size_t step = 0; step < steps_.size(); ++step)
+    for (size_t task = 0; task < steps_[step].names.size() && steps_[step].pass == pass_; ++task)
+      known_.push_back({steps_[step].names[task], step, task});
+  std::sort(known_.begin(), known_.end(), [](const Entry& a, const Entry& b) {
+    return a.name != b.name ? a.name < b.name : a.step < b.step;
+  });
+}
+
+bool LinkJournal::known(uint64_t name, const std::function<bool(KnownResult&)>& use) const {
+  bool found = false;
+  auto entry = std::lower_bound(known_.begin(), known_.end(), name,
+                                [](const Entry& e, uint64_t n) { return e.name < n; });
+  for (; entry != known_.end() && entry->name == name; ++entry) {
+    const LinkStep& step = steps_[entry->step];
+    const uint64_t first = entry->task > 0 ? step.ends[entry->task - 1] : 0;
+    KnownResult result(step.results.data() + first, step.ends[entry->task] - first);
+    found = use(result) || found;
+  }
+  return found;
+}
+
+bool LinkJournal::known_run(uint64_t name, const std::function<bool(NodeId)>& is_source,
+                            std::vector<Link>& links, int64_t& rays) const {
+  std::vector<Link> run;
+  int64_t rays_of_run = 0;
+  const bool is_known = !known_.empty() && known(name, [&](KnownResult& result) {
+    return result.take(&rays_of_run, 1) && rays_of_run >= 0 && result.take_list(run) &&
+           are_links(run, is_source);
+  });
+  if (!is_known) return false;
+  links.insert(links.end(), run.begin(), run.end());
+  rays = rays_of_run;
+  return true;
 }
 
 void LinkJournal::record(LinkStep step) {
-  if (!recording || next_ != steps_.size()) return;
+  if (!recording || step.names.empty()) return;
+  step.pass = pass_;
   push(std::move(step));
-  next_ = steps_.size();
 }
 
 void LinkJournal::push(LinkStep step) {
@@ -60,6 +88,42 @@ LinkJournal LinkJournal::restored(uint64_t key, int64_t rays_before, std::vector
   journal.rays_before = rays_before;
   for (LinkStep& step : steps) journal.push(std::move(step));
   return journal;
+}
+
+bool are_links(const std::vector<Link>& links, const std::function<bool(NodeId)>& is_source) {
+  return std::all_of(links.begin(), links.end(), [&](const Link& link) {
+    return link.weight >= 0 && link.weight <= largest_weight && is_source(link.source);
+  });
+}
+
+bool for_each_recorded(ThreadTeam& team, bool recording, int64_t count,
+                       const std::function<void(int64_t task, int worker)>& body,
+                       const std::function<bool(int64_t done)>& between,
+                       const std::function<void(int64_t first, int64_t end)>& record) {
+  if (!recording) return team.for_each(count, body, between);
+  using Clock = std::chrono::steady_clock;
+  std::vector<uint8_t> is_done(static_cast<size_t>(count), 0);
+  bool going_on = true;
+  for (int64_t first = 0; first < count && going_on;) {
+    const Clock::time_point start = Clock::now();
+    team.for_each(
+        count - first,
+        [&](int64_t turn, int worker) {
+          body(first + turn, worker);
+          is_done[static_cast<size_t>(first + turn)] = 1;
+        },
+        [&](int64_t done) {
+          going_on = going_on && between(first + done);
+          return going_on &&
+                 std::chrono::duration<double>(Clock::now() - start).count() < seconds_of_a_turn;
+        });
+    // Tasks begin in ascending order, and those that were begun have been finished.
+    int64_t end = first;
+    while (end < count && is_done[static_cast<size_t>(end)]) ++end;
+    if (end > first) record(first, end);
+    first = end;
+  }
+  return going_on;
 }
 
 }  // namespace hrad

@@ -1,6 +1,7 @@
-// What linking by rows has done so far, step by step: a stop, or a checkpoint, comes at any time,
-// and linking done again takes the finished steps from here instead of tracing their rays. All else
-// in it is decided by these, so that the result is the same. Floor 7 (stages).
+// What a stage that makes links has done so far, task by task: a stop, or a checkpoint, comes at
+// any time, and the stage done again takes the results of finished tasks from here instead of
+// tracing their rays. All else in it is decided by these, so that the result is the same, whoever
+// did the tasks. Floor 7 (stages).
 #pragma once
 
 #include <cstdint>
@@ -8,34 +9,84 @@
 #include <utility>
 #include <vector>
 
+#include "base/span.h"
 #include "links/link.h"
+#include "machine/sharing.h"
+#include "machine/thread_team.h"
 
 namespace hrad {
 
-// One step: runs of links, one after the other, of points or of cells.
+// Tasks of one pass that were done together, and what each of them found.
 struct LinkStep {
-  std::vector<uint32_t> counts;  // of each run
-  std::vector<Link> links;
-  std::vector<float> values;  // of each point; none of cells
-  int64_t rays = 0;
-  void append(const LinkStep& more);
+  uint32_t pass = 0;
+  std::vector<uint64_t> names;  // of the tasks
+  std::vector<uint64_t> ends;   // of their results among the bytes
+  Bytes results;
+
+  // What was put to the results since the last task is this one's.
+  void end_task(uint64_t name) {
+    names.push_back(name);
+    ends.push_back(results.size());
+  }
+  // The result of a task that is one run of links.
+  void add_run(uint64_t name, Span<const Link> links, int64_t rays) {
+    put(results, &rays, 1);
+    put_list(results, links);
+    end_task(name);
+  }
+};
+
+// The result of a task, which may come from a file: nothing in it is sure.
+class KnownResult {
+ public:
+  KnownResult(const char* first, size_t size) : next_(first), left_(size) {}
+  // False, here and from now on: there is not so much.
+  template <class T>
+  bool take(T* values, size_t count) {
+    if (count > left_ / sizeof(T)) left_ = 0, good_ = false;
+    if (!good_) return false;
+    if (count > 0) std::memcpy(static_cast<void*>(values), next_, count * sizeof(T));
+    next_ += count * sizeof(T);
+    left_ -= count * sizeof(T);
+    return true;
+  }
+  // A list with its length in front, as put_list() puts it.
+  template <class T>
+  bool take_list(std::vector<T>& list) {
+    uint64_t size = 0;
+    if (!take(&size, 1) || size > left_ / sizeof(T)) return good_ = false;
+    list.resize(size);
+    return take(list.data(), size);
+  }
+  bool at_end() const { return good_ && left_ == 0; }
+
+ private:
+  const char* next_;
+  size_t left_;
+  bool good_ = true;
 };
 
 class LinkJournal {
  public:
   bool recording = false;
-  int64_t rays_before = 0;  // State::rays when linking began
+  int64_t rays_before = 0;  // State::rays when the stage began
 
-  // For linking with all that this number stands for; what is known of another one is forgotten.
+  // For a stage with all that this number stands for; what is known of another one is forgotten.
   void begin(uint64_t key, int64_t rays);
   void clear() { *this = with(recording); }
   bool empty() const { return steps_.empty(); }
   int64_t bytes() const { return bytes_; }
 
-  // The next step, if it was done before: of so many runs, whose sources are all right; with values
-  // or without. One that doesn't fit was made by something else: it and all behind it are dropped.
-  const LinkStep* done(size_t runs, bool with_values, const std::function<bool(NodeId)>& is_source);
-  // A step that was done now.
+  // The next pass of the stage, in which every task has a name of its own. Passes follow each other
+  // in the same way on all processes and every time.
+  void next_pass();
+  // The result of a task of this pass, if it was done before. `use` is asked whether it fits, and
+  // takes it; of several it may take all. True when one did. Any thread.
+  bool known(uint64_t name, const std::function<bool(KnownResult&)>& use) const;
+  // Of a task that is to find one run of links: appends what is known of it, its links and rays.
+  bool known_run(uint64_t name, const std::function<bool(NodeId)>& is_source,
+                 std::vector<Link>& links, int64_t& rays) const;
+  // Tasks of this pass that were done now.
   void record(LinkStep step);
 
   // To be kept in a file.
@@ -51,10 +102,26 @@ class LinkJournal {
   }
   void push(LinkStep step);
 
+  struct Entry {
+    uint64_t name;
+    size_t step, task;
+  };
   uint64_t key_ = 0;
+  uint32_t pass_ = 0;
   std::vector<LinkStep> steps_;
-  size_t next_ = 0;
+  std::vector<Entry> known_;  // of this pass, by name
   int64_t bytes_ = 0;
 };
+
+// Links whose sources are what they may be, and whose weights are weights.
+bool are_links(const std::vector<Link>& links, const std::function<bool(NodeId)>& is_source);
+
+// Runs tasks in turns of some seconds, or all at once where nothing is recorded. Between turns, and
+// when `between` asks to stop, record(first, end) is told which tasks have been done since the
+// last time. body and between as for ThreadTeam::for_each; false: stopped.
+bool for_each_recorded(ThreadTeam& team, bool recording, int64_t count,
+                       const std::function<void(int64_t task, int worker)>& body,
+                       const std::function<bool(int64_t done)>& between,
+                       const std::function<void(int64_t first, int64_t end)>& record);
 
 }  // namespace hrad

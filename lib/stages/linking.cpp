@@ -3,23 +3,18 @@
 #include "stages/linking.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
 #include "stages/exchange.h"
 #include "stages/pair_linker.h"
+#include "stages/pair_record.h"
 #include "stages/remote_links.h"
 #include "stages/state_memory.h"
 
 namespace hrad {
 namespace {
-
-// A surface with so many others makes a task.
-constexpr NodeId partners_of_a_task = 512;
-
-struct Task {
-  NodeId p, first, end;
-};
 
 // Every process counts those of its own surfaces with later ones, per pair of owners.
 std::vector<uint64_t> facing_pairs(const PairLinker& linker, int64_t count,
@@ -60,38 +55,40 @@ class PairSearch {
         linker_(state, tools, brightness),
         remote_(exchange_.owner_count(), exchange_.alone() ? std::vector<uint64_t>{0}
                                                            : facing_pairs(linker_, count_, tools)),
-        found_(static_cast<size_t>(count_)) {}
+        found_(static_cast<size_t>(count_)) {
+    state.journal.next_pass();
+  }
 
   // False: stopped.
   bool look_at(Which which, StageMemory& memory) {
-    const std::vector<Task> tasks = tasks_of(which);
+    const std::vector<PairTask> tasks = tasks_of(which);
     const LinkSampler model(state_.forest, tools_.engine, tools_.exposure, tools_.oracle.seed,
                             tools_.oracle.near_ratio);
     std::vector<LinkSampler> samplers(tools_.team.size(), model);
-    std::vector<int64_t> pairs(tools_.team.size(), 0);
-    std::vector<std::vector<Reciprocal>> results(tasks.size());
-    const bool going_on = tools_.team.for_each(
-        static_cast<int64_t>(tasks.size()),
+    std::vector<PairsFound> known(tasks.size()), results(tasks.size());
+    const bool going_on = for_each_recorded(
+        tools_.team, state_.journal.recording, static_cast<int64_t>(tasks.size()),
         [&](int64_t turn, int worker) {
-          const Task& task = tasks[static_cast<size_t>(turn)];
+          const size_t k = static_cast<size_t>(turn);
+          const PairTask& task = tasks[k];
           const auto wanted = [&](NodeId q) { return is_mine(task.p, exchange_.owner(q), which); };
-          auto& result = results[static_cast<size_t>(turn)];
-          result =
-              linker_.link(task.p, task.first, task.end, wanted, samplers[worker], &pairs[worker]);
-          memory.take(static_cast<int64_t>(result.size() * sizeof(Reciprocal)), "links");
+          known[k] = known_pairs(state_.journal, task, wanted);
+          results[k] = linker_.link(task, wanted, known[k].looked_at, samplers[worker]);
+          memory.take(static_cast<int64_t>((known[k].found.size() + results[k].found.size()) *
+                                           sizeof(Reciprocal)),
+                      "links");
         },
         [&](int64_t done) {
           return tools_.progress(static_cast<double>(done) / static_cast<double>(tasks.size()));
+        },
+        [&](int64_t turn, int64_t end) {
+          LinkStep step;
+          for (size_t k = static_cast<size_t>(turn); k < static_cast<size_t>(end); ++k)
+            if (results[k].looked_at.any()) add_result(step, tasks[k], results[k]);
+          state_.journal.record(std::move(step));
         });
-    for (int worker = 0; worker < tools_.team.size(); ++worker) {
-      state_.rays += samplers[worker].rays();
-      state_.pairs += pairs[worker];
-    }
     if (!exchange_.all_go_on(going_on)) return false;
-    for (size_t k = 0; k < tasks.size(); ++k) {
-      auto& found = found_[static_cast<size_t>(tasks[k].p)];
-      found.insert(found.end(), results[k].begin(), results[k].end());
-    }
+    for (size_t k = 0; k < tasks.size(); ++k) take(tasks[k], {&known[k], &results[k]});
     return true;
   }
 
@@ -126,8 +123,8 @@ class PairSearch {
            exchange_.is_me(remote_.computed_by(owner, other));
   }
 
-  std::vector<Task> tasks_of(Which which) const {
-    std::vector<Task> tasks;
+  std::vector<PairTask> tasks_of(Which which) const {
+    std::vector<PairTask> tasks;
     for (NodeId p = 0; p < static_cast<NodeId>(count_); ++p) {
       bool any = false;
       for (int32_t other = 0; other < exchange_.owner_count(); ++other)
@@ -138,6 +135,18 @@ class PairSearch {
             {p, first, std::min(static_cast<NodeId>(count_), first + partners_of_a_task)});
     }
     return tasks;
+  }
+
+  void take(const PairTask& task, std::initializer_list<const PairsFound*> results) {
+    auto& found = found_[static_cast<size_t>(task.p)];
+    const auto before = static_cast<std::ptrdiff_t>(found.size());
+    for (const PairsFound* result : results) {
+      state_.rays += result->rays;
+      state_.pairs += result->pairs;
+      found.insert(found.end(), result->found.begin(), result->found.end());
+    }
+    std::sort(found.begin() + before, found.end(),
+              [](const Reciprocal& a, const Reciprocal& b) { return a.other < b.other; });
   }
 
   State& state_;

@@ -24,25 +24,29 @@ PairLinker::PairLinker(const State& state, const StageTools& tools, const Bright
     keys_.push_back(key_of(state.forest, state.forest.nodes[k]));
 }
 
-std::vector<Reciprocal> PairLinker::link(NodeId p, NodeId first, NodeId end,
-                                         const std::function<bool(NodeId)>& wanted,
-                                         LinkSampler& sampler, int64_t* pairs) const {
-  std::vector<Reciprocal> found;
-  if (roots_[p].exposed <= 0) return found;
-  std::vector<uint8_t> faces(static_cast<size_t>(end - first));
-  facing_.find(static_cast<size_t>(p), static_cast<size_t>(first), faces.size(), faces.data());
+PairsFound PairLinker::link(const PairTask& task, const std::function<bool(NodeId)>& wanted,
+                            const Partners& known, LinkSampler& sampler) const {
+  PairsFound result;
+  if (roots_[task.p].exposed <= 0) return result;
+  const int64_t rays_before = sampler.rays();
+  std::vector<uint8_t> faces(static_cast<size_t>(task.end - task.first));
+  facing_.find(static_cast<size_t>(task.p), static_cast<size_t>(task.first), faces.size(),
+               faces.data());
   Bundle bundle;
-  for (NodeId q = first; q < end; ++q) {
-    if (!faces[q - first] || roots_[q].exposed <= 0 || !wanted(q)) continue;
-    ++*pairs;
-    estimate(p, q, sampler, bundle, found);
+  for (size_t k = 0; k < faces.size(); ++k) {
+    const NodeId q = task.first + static_cast<NodeId>(k);
+    if (!faces[k] || known[k] || roots_[q].exposed <= 0 || !wanted(q)) continue;
+    result.looked_at[k] = true;
+    ++result.pairs;
+    estimate(task.p, q, sampler, bundle, result.found);
   }
-  flush(p, sampler, bundle, found);
+  flush(task.p, sampler, bundle, result.found);
   // Bundles are late: back to ascending order.
-  std::sort(found.begin(), found.end(),
+  std::sort(result.found.begin(), result.found.end(),
             [](const Reciprocal& a, const Reciprocal& b) { return a.other < b.other; });
-  found.shrink_to_fit();
-  return found;
+  result.found.shrink_to_fit();
+  result.rays = sampler.rays() - rays_before;
+  return result;
 }
 
 void PairLinker::estimate(NodeId p, NodeId q, LinkSampler& sampler, Bundle& bundle,

@@ -6,15 +6,10 @@
 #include <vector>
 
 #include "stages/facing_table.h"
+#include "stages/pair_record.h"
 #include "stages/state.h"
 
 namespace hrad {
-
-// A pair of which the lower-numbered surface took care: weights in both directions.
-struct Reciprocal {
-  NodeId other;
-  float to_this, to_other;
-};
 
 class PairLinker {
  public:
@@ -22,11 +17,10 @@ class PairLinker {
 
   const FacingTable& facing() const { return facing_; }
 
-  // Pairs of surface p with first .. end-1, all later ones, of those that are wanted: in the order
-  // of the latter. pairs: grows by their number.
-  std::vector<Reciprocal> link(NodeId p, NodeId first, NodeId end,
-                               const std::function<bool(NodeId)>& wanted, LinkSampler& sampler,
-                               int64_t* pairs) const;
+  // Those pairs of the task that are wanted, but for the known ones; found in the order of the
+  // latter surfaces.
+  PairsFound link(const PairTask& task, const std::function<bool(NodeId)>& wanted,
+                  const Partners& known, LinkSampler& sampler) const;
 
  private:
   // Up to four dim pairs that share a packet, four rays each.

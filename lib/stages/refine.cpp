@@ -10,8 +10,10 @@
 #include "stages/exchange.h"
 #include "stages/new_elements.h"
 #include "stages/state_memory.h"
+#include "stages/subtree_record.h"
 #include "stages/subtree_refiner.h"
 #include "stages/sweep.h"
+#include "stages/task_names.h"
 
 namespace hrad {
 namespace {
@@ -101,14 +103,16 @@ class RefiningRound {
 
 bool RefiningRound::run(Span<const NodeId> met) {
   if (!start(met)) return false;
+  state_.nodes_in_order = static_cast<int64_t>(old_nodes_);
   bool going_on = true;
   while (going_on && !tasks_.empty()) going_on = pass();
-  if (!exchange_.all_go_on(going_on)) {
+  going_on = exchange_.all_go_on(going_on);
+  if (going_on)
+    finish();
+  else
     drop_elements(state_, old_nodes_);
-    return false;
-  }
-  finish();
-  return true;
+  state_.nodes_in_order = -1;
+  return going_on;
 }
 
 bool RefiningRound::start(Span<const NodeId> met) {
@@ -145,28 +149,44 @@ std::vector<size_t> RefiningRound::by_work() {
 
 // False: stopped.
 bool RefiningRound::pass() {
+  state_.journal.next_pass();
   const std::vector<size_t> order = by_work();
   std::vector<SubtreeResult> results(tasks_.size());
   std::vector<std::unique_ptr<SubtreeRefiner>> refiners(tools_.team.size());
   for (auto& refiner : refiners)
     refiner = std::make_unique<SubtreeRefiner>(state_, tools_, brightness_, points_.get());
   std::vector<double> seconds(tasks_.size(), 0.0);
+  std::vector<uint8_t> is_new(tasks_.size(), 0);
   const bool first = passes_.empty();
-  const bool going_on = tools_.team.for_each(
-      static_cast<int64_t>(order.size()),
+  const auto name_of = [&](size_t k) { return name_of_element(state_.forest, tasks_[k].root); };
+  const bool going_on = for_each_recorded(
+      tools_.team, state_.journal.recording, static_cast<int64_t>(order.size()),
       [&](int64_t turn, int worker) {
         const size_t k = order[static_cast<size_t>(turn)];
         const Task& task = tasks_[k];
-        const double start = thread_seconds();
-        results[k] = refiners[worker]->refine(task.root, task.arriving, task.met,
-                                              task.work > most_links_of_a_task);
-        seconds[k] = thread_seconds() - start;
+        is_new[k] = !state_.journal.known(name_of(k), [&](KnownResult& known) {
+          return take_result(known, state_.forest, task.root, old_nodes_, results[k]);
+        });
+        if (is_new[k]) {
+          const double start = thread_seconds();
+          results[k] = refiners[worker]->refine(task.root, task.arriving, task.met,
+                                                task.work > most_links_of_a_task);
+          seconds[k] = thread_seconds() - start;
+        }
         memory_.take(bytes_of(results[k]), "refined links");
       },
       [&](int64_t done) {
         // Later passes are small beside the first.
         return tools_.progress(first ? static_cast<double>(done) / static_cast<double>(order.size())
                                      : 1);
+      },
+      [&](int64_t turn, int64_t end) {
+        LinkStep step;
+        for (; turn < end; ++turn) {
+          const size_t k = order[static_cast<size_t>(turn)];
+          if (is_new[k]) add_result(step, name_of(k), results[k]);
+        }
+        state_.journal.record(std::move(step));
       });
   if (!going_on) return false;
   for (size_t k = 0; k < tasks_.size(); ++k)

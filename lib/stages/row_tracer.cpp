@@ -11,6 +11,7 @@
 #include "links/element.h"
 #include "stages/exchange.h"
 #include "stages/leaf_light.h"
+#include "stages/task_names.h"
 
 namespace hrad {
 namespace {
@@ -25,8 +26,8 @@ class RowTracer {
             const LightGrid& grid)
       : state_(state), tools_(tools), settings_(settings), grid_(grid) {}
 
-  // The links of one element, sorted by source, from so many rays.
-  void trace(NodeId id, int wanted, std::vector<Link>& links) {
+  // The links of one element, sorted by source, from so many rays; returns how many were traced.
+  int64_t trace(NodeId id, int wanted, std::vector<Link>& links) {
     const Forest& forest = state_.forest;
     const Node& node = forest.nodes[id];
     const Surface& surface = forest.surfaces[node.surface];
@@ -37,6 +38,7 @@ class RowTracer {
     const int most = node.exposed < 1 ? 64 * wanted : wanted;
     hits_.clear();
     int counted = 0;
+    int64_t rays = 0;
     for (int k = 0; k < most && counted < wanted; ++k) {
       double p[4];
       points.point(static_cast<uint32_t>(k), p);
@@ -73,9 +75,8 @@ class RowTracer {
       while (k < hits_.size() && hits_[k] == hits_[first]) ++k;
       links.push_back({hits_[first], static_cast<float>(static_cast<double>(k - first) / counted)});
     }
+    return rays;
   }
-
-  int64_t rays = 0;
 
  private:
   const State& state_;
@@ -96,27 +97,6 @@ void put(State& state, const StageTools& tools, const std::vector<Span<const Lin
   state.links.replace(std::move(runs), &tools.team);
 }
 
-// Of a step, which has the rows one after the other.
-std::vector<Span<const Link>> rows_of(const LinkStep& step) {
-  std::vector<Span<const Link>> rows;
-  const Link* next = step.links.data();
-  for (uint32_t count : step.counts) {
-    rows.push_back({next, count});
-    next += count;
-  }
-  return rows;
-}
-
-LinkStep step_of(const std::vector<Span<const Link>>& rows, int64_t rays) {
-  LinkStep step;
-  step.rays = rays;
-  for (Span<const Link> row : rows) {
-    step.counts.push_back(static_cast<uint32_t>(row.size()));
-    step.links.insert(step.links.end(), row.begin(), row.end());
-  }
-  return step;
-}
-
 }  // namespace
 
 bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
@@ -124,37 +104,36 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
                 const std::vector<int>& rays_of_cell, StageMemory& memory) {
   const Forest& forest = state.forest;
   const int64_t count = static_cast<int64_t>(cells.size());
+  const auto is_element = [&](NodeId source) {
+    return source >= 0 && static_cast<size_t>(source) < forest.nodes.size() &&
+           !Forest::is_cluster(forest.nodes[source]);
+  };
+  state.journal.next_pass();
   bool going_on = true;
   for (int64_t first = 0; first < count && going_on; first += rows_of_a_batch) {
     const int64_t end = std::min(count, first + rows_of_a_batch);
-    const auto is_element = [&](NodeId source) {
-      return source >= 0 && static_cast<size_t>(source) < forest.nodes.size() &&
-             !Forest::is_cluster(forest.nodes[source]);
-    };
-    if (const LinkStep* done =
-            state.journal.done(static_cast<size_t>(end - first), false, is_element)) {
-      put(state, tools, rows_of(*done), cells, first);
-      state.rays += done->rays;
-      memory.settle();
-      continue;
-    }
     const int64_t tasks = (end - first + rows_of_a_task - 1) / rows_of_a_task;
-    std::vector<int64_t> rays(static_cast<size_t>(tasks), 0);
+    std::vector<int64_t> rays(static_cast<size_t>(end - first), 0);
+    std::vector<uint8_t> is_new(static_cast<size_t>(end - first), 0);
     std::vector<std::vector<Link>> links_of_task(static_cast<size_t>(tasks));
     std::vector<Span<const Link>> rows(static_cast<size_t>(end - first));  // in these
-    going_on = tools.team.for_each(
-        tasks,
+    const auto first_of = [&](int64_t task) {
+      return std::min(end, first + task * rows_of_a_task);
+    };
+    going_on = for_each_recorded(
+        tools.team, state.journal.recording, tasks,
         [&](int64_t task, int) {
           RowTracer tracer(state, tools, settings, grid);
-          std::vector<Link>& links = links_of_task[task];
+          std::vector<Link>& links = links_of_task[static_cast<size_t>(task)];
           size_t count_of[rows_of_a_task] = {};
-          const int64_t from = first + task * rows_of_a_task;
-          const int64_t to = std::min(end, from + rows_of_a_task);
+          const int64_t from = first_of(task), to = first_of(task + 1);
           for (int64_t k = from; k < to; ++k) {
             const Node& node = forest.nodes[cells[k]];
+            if (!tools.exchange.mine(node.surface) || !(node.exposed > 0)) continue;
             const size_t before = links.size();
-            if (tools.exchange.mine(node.surface) && node.exposed > 0)
-              tracer.trace(cells[k], rays_of_cell[k], links);
+            is_new[k - first] = !state.journal.known_run(name_of_element(forest, cells[k]),
+                                                         is_element, links, rays[k - first]);
+            if (is_new[k - first]) rays[k - first] = tracer.trace(cells[k], rays_of_cell[k], links);
             count_of[k - from] = links.size() - before;
           }
           links.shrink_to_fit();
@@ -162,21 +141,24 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
           for (int64_t k = from; k < to; next += count_of[k++ - from])
             rows[k - first] = {next, count_of[k - from]};
           const int64_t bytes = static_cast<int64_t>(links.size() * sizeof(Link));
-          rays[task] = tracer.rays;
           memory.take(2 * bytes, "rows of rays");  // in two places for a while
         },
         [&](int64_t done) {
           return tools.progress(
               (static_cast<double>(first) + static_cast<double>(done * rows_of_a_task)) /
               static_cast<double>(count + rows_of_a_task));
+        },
+        [&](int64_t task, int64_t end_task) {
+          LinkStep step;
+          for (int64_t k = first_of(task); k < first_of(end_task); ++k)
+            if (is_new[k - first])
+              step.add_run(name_of_element(forest, cells[k]), rows[k - first], rays[k - first]);
+          state.journal.record(std::move(step));
         });
     going_on = tools.exchange.all_go_on(going_on);
     if (!going_on) break;
-    int64_t all_rays = 0;
-    for (int64_t r : rays) all_rays += r;
-    state.rays += all_rays;
+    for (int64_t r : rays) state.rays += r;
     put(state, tools, rows, cells, first);
-    if (state.journal.recording) state.journal.record(step_of(rows, all_rays));
     memory.settle();
   }
   if (going_on) tools.exchange.ask_for_sources(state);

@@ -166,7 +166,6 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   if (!trace_rows(state, part_of(tools, piloted, 1), settings, grid, state.cells, rays, memory))
     return false;
   mesh.keep_what_is_named();
-  state.journal.clear();
   reset_to_emission(state);
   shrink_to_fit(state);
   memory.settle();

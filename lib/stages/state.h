@@ -55,7 +55,10 @@ struct State {
   std::vector<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
                                   // links brought
   int64_t rays = 0, pairs = 0;
-  LinkJournal journal;  // of linking by rows, until that is done
+  LinkJournal journal;  // of linking or a round of refinement that is under way
+  // Within such a round: nodes from this one on are those that it has made so far; -1: there is
+  // none. All before it, with their links, are as they were when it began.
+  int64_t nodes_in_order = -1;
   MemoryBudget memory;  // of scene, ray engine, elements and links
 };
 

@@ -43,6 +43,9 @@ class Bytes:
         self.at += size
         return self.data[self.at - size:self.at]
 
+    def rest(self):
+        return self.take(len(self.data) - self.at)
+
     def byte(self):
         return self.take(1)[0]
 

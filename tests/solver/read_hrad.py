@@ -103,7 +103,7 @@ class Checkpoint:
         data = self.data
         need(data[:8] == MAGIC and data[-8:] == END, "the first or the last bytes")
         self.version, count, size, table_sum, head_sum = struct.unpack("<IIQII", data[8:32])
-        need(self.version == 1 and count == len(SECTIONS) and size == len(data), "the head")
+        need(self.version in (1, 2) and count == len(SECTIONS) and size == len(data), "the head")
         need(zlib.crc32(data[:28]) == head_sum, "the checksum of the head")
         table = data[32:32 + 40 * count]
         need(zlib.crc32(table) == table_sum, "the checksum of the table")
@@ -251,9 +251,16 @@ class Checkpoint:
     def read_steps(self):
         self.steps = []
         for _, _, run in self.runs("steps", self.sizes["steps"]):
-            rays, count = run.varint(), run.varint()
-            values = run.planes(count, 4) if run.byte() else []
-            self.steps.append((rays, [as_float(v) for v in values], runs_of_links(run, count)))
+            if self.version == 1:
+                run.rest()
+                continue
+            number, count = run.varint(), run.varint()
+            names, name = [], 0
+            for _ in range(count):
+                name = (name + run.signed()) % 2**64
+                names.append(name)
+            lengths = [run.varint() for _ in range(count)]
+            self.steps.append((number, list(zip(names, map(run.take, lengths)))))
 
     def read_links(self):
         sizes = self.sizes

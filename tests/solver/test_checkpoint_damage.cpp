@@ -18,14 +18,14 @@ using namespace hrad_test;
 
 namespace {
 
-std::string good_file(const SolveCase& c, bool stopped = false) {
+// stopped: in the midst of this stage, where so much of the solve is done.
+std::string good_file(const SolveCase& c, const char* stopped = nullptr, double fraction = 0) {
   const Folder folder("good");
   const auto solver = solver_of(c);
-  // In the midst of linking, late.
   if (stopped) {
     solver->set_int("resumable", 1);
-    solver->set_progress([](const hrad::Progress& progress) {
-      return progress.stage != std::string("linking") || progress.fraction < 0.8;
+    solver->set_progress([=](const hrad::Progress& progress) {
+      return progress.stage != std::string(stopped) || progress.fraction < fraction;
     });
   }
   solver->solve();
@@ -39,7 +39,10 @@ const std::vector<std::string>& good_files() {
       good_file({"furnace", "rows", "error", 0.4, "points", 1}),
       good_file({"furnace", "clusters", "error", 0.5}),
       good_file({"cornell", "rows", "error", 0.5, "points", 1}),
-      good_file({"furnace", "rows", "error", 0.4, "points", 1}, true)};
+      good_file({"furnace", "rows", "error", 0.4, "points", 1}, "linking", 0.8),
+      good_file({"furnace", "pairs", "error", 0.5}, "linking", 0.05),
+      good_file({"cornell", "pairs", "energy", 0.5}, "refine", 0.9),
+      good_file({"furnace", "clusters", "error", 0.5}, "refine", 0.8)};
   return files;
 }
 
@@ -125,7 +128,7 @@ void cuts_and_additions_are_found() {
 }
 
 void other_versions_are_named() {
-  refuses(file_of(frame_of(good_files()[0]), 2), "version 2");
+  refuses(file_of(frame_of(good_files()[0]), 3), "version 3");
   refuses(file_of(frame_of(good_files()[0]), 0), "version 0");
 }
 
@@ -161,15 +164,32 @@ void any_content_is_refused_or_harmless() {
   CHECK(refused > 1000);
 }
 
-// Linking takes steps from a file as far as they fit, and does the others.
-void any_steps_are_refused_or_harmless() {
+// The steps of the former version are left out, whatever they are.
+void steps_of_version_1_are_done_again() {
+  const Folder folder("old-steps");
+  Frame frame = frame_of(good_files()[3]);
+  auto& steps = frame[static_cast<size_t>(Section::steps)];
+  CHECK(!steps.empty());
+  for (auto& run : steps) run.raw = "\1\2\3";
+  write_bytes(folder.file("a.hrad"), file_of(frame, 1));
+  hrad::Solver solver;
+  solver.read_checkpoint(folder.file("a.hrad"));
+  CHECK(solver.solve() != Status::stopped);
+  const auto whole = solver_of({"furnace", "rows", "error", 0.4, "points", 1});
+  whole->solve();
+  CHECK(solver.state_hash() == whole->state_hash());
+  CHECK_EQUAL(solver.stats().rays, whole->stats().rays);
+}
+
+// Stages take results from a file as far as they fit, and make the others.
+void any_steps_are_refused_or_harmless(const std::string& file) {
   const Folder folder("steps");
-  const Frame good = frame_of(good_files()[3]);
+  const Frame good = frame_of(file);
   const size_t steps = static_cast<size_t>(Section::steps);
   CHECK(!good[steps].empty());
   std::mt19937_64 random(4);
   int read = 0;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 40; ++k) {
     Frame frame = good;
     std::string& raw = frame[steps][random() % frame[steps].size()].raw;
     const size_t at = random() % raw.size();
@@ -188,6 +208,11 @@ void any_steps_are_refused_or_harmless() {
     CHECK(solver.leaf_count() > 0);
   }
   CHECK(read > 5);
+}
+
+void any_steps_of_any_method_are_refused_or_harmless() {
+  for (size_t k = 3; k < good_files().size(); ++k)
+    any_steps_are_refused_or_harmless(good_files()[k]);
 }
 
 // A good file with one section changed.
@@ -297,7 +322,8 @@ int main() {
                               HRAD_TEST(cuts_and_additions_are_found),
                               HRAD_TEST(other_versions_are_named),
                               HRAD_TEST(any_content_is_refused_or_harmless),
-                              HRAD_TEST(any_steps_are_refused_or_harmless),
+                              HRAD_TEST(steps_of_version_1_are_done_again),
+                              HRAD_TEST(any_steps_of_any_method_are_refused_or_harmless),
                               HRAD_TEST(huge_counts_are_refused),
                               HRAD_TEST(bombs_are_refused),
                               HRAD_TEST(impossible_trees_are_refused),

@@ -1,8 +1,11 @@
 // A solve that was stopped, or whose process ended, goes on from its last checkpoint to the same
 // bits as one that was not: from after every sweep, and from within every stage.
+#include <cstring>
 #include <vector>
 
 #include "solver/checkpoint_files.h"
+#include "solver/checkpoint_sizes.h"
+#include "support/checkpoint_frame.h"
 
 using hrad::Solver;
 using hrad::Status;
@@ -77,7 +80,8 @@ void checkpoints_are_written_on_the_way() {
   const Folder folder("on-the-way");
   for (const SolveCase& c : {SolveCase{"cornell", "rows", "error", 0.3},
                              SolveCase{"cornell", "rows", "error", 0.3, "means"},
-                             SolveCase{"cornell", "pairs", "error", 0.4}}) {
+                             SolveCase{"cornell", "pairs", "error", 0.4},
+                             SolveCase{"cornell", "clusters", "error", 0.5}}) {
     const auto whole = solver_of(c);
     whole->solve();
     const auto solver = solver_of(c, 2);
@@ -110,6 +114,59 @@ void checkpoints_are_written_on_the_way() {
       CHECK_EQUAL(other.stats().rays, whole->stats().rays);
       CHECK_EQUAL(other.stats().iterations, whole->stats().iterations);
     }
+  }
+}
+
+// Every result in the file says of its rays one more than there were: a solve that goes on counts
+// as many more as there are results, as it does none of these tasks again.
+int64_t add_a_ray_to_every_result(const std::string& path) {
+  hrad_test::Frame frame = frame_of(bytes_of_file(path));
+  int64_t results = 0;
+  for (auto& run : frame[static_cast<size_t>(hrad::Section::steps)]) {
+    hrad::PackedReader reader(run.raw.data(), run.raw.size(), {"steps", 0});
+    hrad::LinkStep step = hrad::unpack_step(reader);
+    uint64_t at = 0;
+    for (uint64_t end : step.ends) {
+      int64_t rays;
+      std::memcpy(&rays, &step.results[at], sizeof rays);
+      ++rays;
+      std::memcpy(&step.results[at], &rays, sizeof rays);
+      at = end;
+      ++results;
+    }
+    hrad::PackedBytes packed;
+    hrad::pack_step(step, packed);
+    run.raw = packed.bytes();
+  }
+  write_bytes(path, file_of(frame));
+  return results;
+}
+
+void finished_tasks_are_not_done_again() {
+  const Folder folder("tasks");
+  const struct {
+    SolveCase c;
+    Stop stop;
+    int64_t least;
+  } stops[] = {{{"cornell", "rows", "error", 0.3}, {"linking", 0, 0.3}, 500},
+               {{"cornell", "rows", "error", 0.3, "means"}, {"linking", 0, 0.5}, 500},
+               {{"cornell", "pairs", "error", 0.3}, {"linking", 0, 0.15}, 10},
+               {{"cornell", "pairs", "error", 0.3}, {"refine", 0, 0.9}, 10},
+               {{"cornell", "clusters", "error", 0.5}, {"linking", 0, 0.08}, 20},
+               {{"cornell", "clusters", "error", 0.5}, {"refine", 0, 0.9}, 20}};
+  for (const auto& [c, stop, least] : stops) {
+    const auto whole = solver_of(c), solver = solver_of(c, 2);
+    whole->solve();
+    solver->set_int("resumable", 1);
+    CHECK(solve_until(*solver, stop));
+    solver->write_checkpoint(folder.file("a.hrad"));
+    const int64_t results = add_a_ray_to_every_result(folder.file("a.hrad"));
+    CHECK(results >= least);
+    Solver other;
+    other.read_checkpoint(folder.file("a.hrad"));
+    CHECK(other.solve() != Status::stopped);
+    CHECK_EQUAL(other.stats().rays, whole->stats().rays + results);
+    CHECK(other.state_hash() == whole->state_hash());
   }
 }
 
@@ -202,6 +259,7 @@ void light_and_sweeps_alone_are_kept_as_well() {
 int main() {
   const CMUnitTest tests[] = {HRAD_TEST(a_stopped_solve_goes_on_from_its_checkpoint),
                               HRAD_TEST(checkpoints_are_written_on_the_way),
+                              HRAD_TEST(finished_tasks_are_not_done_again),
                               HRAD_TEST(steps_of_other_links_are_forgotten),
                               HRAD_TEST(a_method_that_changes_begins_anew),
                               HRAD_TEST(a_solve_goes_on_through_many_checkpoints),
