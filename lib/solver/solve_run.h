@@ -1,0 +1,58 @@
+// One call of solve(): the stages in the order of the paper's Fig. 1, with what they share.
+// Floor 8 (solver).
+#pragma once
+
+#include <vector>
+
+#include "solver/progress_clock.h"
+#include "solver/schedule.h"
+#include "solver/solution.h"
+
+namespace hrad {
+
+class Solver::Run {
+ public:
+  explicit Run(Solver& solver);
+  Status run();
+
+ private:
+  // What is to be done (solve.cpp).
+  Status sweep_again();
+  void start_over_if_the_light_changed();
+  void clear_state();
+  Status finish();
+  bool tighten();
+  int rounds_wanted() const { return by_rows_ ? 0 : first_rounds + solution_.tightened; }
+  bool out_of_sweeps() const {
+    return solver_.stats_.iterations - solution_.earlier_sweeps >= params_.max_iterations;
+  }
+  // The measured error less so many of its standard errors.
+  double error_but(double standard_errors) const {
+    return solver_.stats_.error_estimate - standard_errors * solver_.stats_.error_standard_error;
+  }
+  bool steered_by_accuracy() const { return params_.tolerance <= 0 && params_.oracle != "energy"; }
+
+  // The stages (solve_stages.cpp). False: stopped.
+  StageTools tools(int oracle_round);
+  void begin_from_emission(int round);
+  void begin_sweeps(int round);
+  bool link();
+  void begin_journal(uint64_t key);
+  bool link_by_pairs();
+  bool link_by_clusters();
+  bool link_by_rows();
+  bool round();
+  double share_of_rounds(int done) const;
+  bool sweep(int round);
+
+  Solver& solver_;
+  Solution& solution_;
+  State& state_;
+  const Params& params_;
+  const bool by_rows_;
+  Exchange& exchange_;
+  std::vector<double> work_;  // of each own surface in the last round
+  ProgressClock clock_;
+};
+
+}  // namespace hrad

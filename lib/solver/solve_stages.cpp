@@ -1,0 +1,163 @@
+// Linking, rounds of refinement, and sweeps until the light stands still. Floor 8 (solver).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/hash.h"
+#include "solver/solve_run.h"
+#include "stages/exposed_shares.h"
+#include "stages/gather.h"
+#include "stages/linking.h"
+#include "stages/rebalance.h"
+#include "stages/refine.h"
+#include "stages/rows.h"
+#include "stages/state_memory.h"
+#include "stages/sweep.h"
+
+namespace hrad {
+namespace {
+
+uint64_t hash_of_radiosity(const State& state) {
+  Hasher hash;
+  for (const auto* light : {&state.radiosity, &state.irradiance})
+    for (float value : *light) hash.add(value);
+  return hash.value();
+}
+
+void measure_roots(State& state, const StageTools& tools) {
+  std::vector<NodeId> roots;
+  for (NodeId root = 0; root < state.forest.surface_count(); ++root) roots.push_back(root);
+  measure_exposure(state, tools, roots);
+}
+
+}  // namespace
+
+StageTools Solver::Run::tools(int oracle_round) {
+  return {*solution_.team,
+          exchange_,
+          *solution_.engine,
+          *solution_.exposure,
+          oracle_of_round(params_, state_, oracle_round, solution_.scale),
+          [this](double fraction) { return clock_.report(fraction, solver_.stats_.iterations); }};
+}
+
+void Solver::Run::begin_from_emission(int round) {
+  reset_to_emission(state_);
+  begin_sweeps(round);
+  solution_.from_emission = true;
+  solution_.earlier_sweeps = solver_.stats_.iterations;
+}
+
+void Solver::Run::begin_sweeps(int round) {
+  solution_.sweeping = true;
+  solution_.from_emission = false;
+  solution_.sweeping_round = round;
+  solution_.convergence = Convergence(sweep_tolerance(params_, round));
+}
+
+bool Solver::Run::link() {
+  const auto start = std::chrono::steady_clock::now();
+  begin_journal(hash_of_linking(params_, solution_.light_hash, solution_.scale));
+  const bool done = by_rows_                        ? link_by_rows()
+                    : params_.linking == "clusters" ? link_by_clusters()
+                                                    : link_by_pairs();
+  solver_.stats_.seconds_linking +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!done) {
+    state_.rays = state_.journal.rays_before;
+    return false;
+  }
+  state_.journal.clear();
+  solution_.linked = true;
+  solution_.rounds_done = 0;
+  return sweep(by_rows_ ? first_rounds : 0);
+}
+
+void Solver::Run::begin_journal(uint64_t key) {
+  state_.journal.begin(key, state_.rays);
+  state_.journal.recording = params_.resumable != 0;
+}
+
+bool Solver::Run::link_by_pairs() {
+  clock_.begin("linking", 0.02, 0.25);
+  StageTools stage = tools(0);
+  measure_roots(state_, stage);
+  reset_to_emission(state_);
+  state_.links.resize(state_.forest.nodes.size());
+  return link_pairs(state_, stage, expected_brightness(state_));
+}
+
+bool Solver::Run::link_by_clusters() {
+  clock_.begin("linking", 0.02, 0.1);
+  StageTools stage = tools(0);
+  measure_roots(state_, stage);
+  if (state_.forest.clusters.empty()) add_clusters(state_.forest);
+  state_.links.resize(state_.forest.nodes.size());
+  reset_to_emission(state_);
+  return hrad::link_clusters(state_, stage, expected_brightness(state_));
+}
+
+bool Solver::Run::link_by_rows() {
+  clear_state();
+  clock_.begin("linking", 0.02, 0.85);
+  const StageTools stage = tools(first_rounds);
+  measure_roots(state_, stage);
+  return link_rows(
+      state_, stage,
+      rows_of(params_, state_.forest, solution_.inspection.mean_distance, solution_.scale));
+}
+
+bool Solver::Run::round() {
+  const int number = solution_.rounds_done + 1;
+  const double from = 0.25 + 0.7 * share_of_rounds(number - 1);
+  const double whole = share_of_rounds(number) - share_of_rounds(number - 1);
+  clock_.begin("refine", from, from + 0.95 * whole);
+  const auto start = std::chrono::steady_clock::now();
+  // The last round tells best what surfaces cost; before the first one there are their links.
+  if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
+  rebalance(state_, exchange_, work_);
+  // Every decision of a round follows from the light that it begins with.
+  begin_journal(mix(hash_of_linking(params_, solution_.light_hash, solution_.scale),
+                    static_cast<uint64_t>(number), hash_of_radiosity(state_)));
+  const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
+  const bool done = refine_links(state_, tools(number), brightness, &work_);
+  solver_.stats_.seconds_iterative +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!done) return false;
+  state_.journal.clear();
+  ++solver_.stats_.rounds;
+  solution_.rounds_done = number;
+  return sweep(number);
+}
+
+// Every round takes about twice as long as the one before.
+double Solver::Run::share_of_rounds(int done) const {
+  return std::min(1.0, (std::ldexp(1.0, done) - 1) / (std::ldexp(1.0, rounds_wanted()) - 1));
+}
+
+// Gathering and push-pull until the radiosity transported stands still; goes on where a stop
+// broke it off.
+bool Solver::Run::sweep(int round) {
+  const auto start = std::chrono::steady_clock::now();
+  clock_.begin("sweep", clock_.fraction(), clock_.fraction() + 0.02);
+  if (!solution_.sweeping) begin_sweeps(round);
+  StageMemory memory(state_);
+  memory.take(bytes_of_gather_space(state_), "the light of a sweep");
+  GatherSpace space;
+  bool going_on = true;
+  solution_.converged = false;
+  while (going_on && !solution_.converged && !out_of_sweeps()) {
+    solution_.converged =
+        solution_.convergence.reached(hrad::sweep(state_, *solution_.team, exchange_, space));
+    ++solver_.stats_.iterations;
+    solution_.sweeping = !solution_.converged && !out_of_sweeps();
+    going_on = exchange_.all_go_on(clock_.report(0.5, solver_.stats_.iterations));
+  }
+  exchange_.share_light(state_);
+  solver_.stats_.seconds_iterative +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  solution_.sweeping = !solution_.converged && !out_of_sweeps();
+  return going_on;
+}
+
+}  // namespace hrad
