@@ -40,7 +40,7 @@ void pack_light(const State& state, int64_t first, int64_t end, PackedBytes& byt
     for (int b = 0; b < state.bands; ++b) {
       const uint32_t value = bits_of(state.irradiance[at(state, id, b)]);
       uint32_t expected = 0;
-      if (node.first_child >= 0) {
+      if (state.divided_in_order(node)) {
         expected = bits_of(mean_of_children(state, node, b));
       } else if (!Forest::is_cluster(node)) {
         expected = last[static_cast<size_t>(b)];

@@ -59,6 +59,9 @@ struct State {
   // Within such a round: nodes from this one on are those that it has made so far; -1: there is
   // none. All before it, with their links, are as they were when it began.
   int64_t nodes_in_order = -1;
+  bool divided_in_order(const Node& node) const {
+    return node.first_child >= 0 && (nodes_in_order < 0 || node.first_child < nodes_in_order);
+  }
   MemoryBudget memory;  // of scene, ray engine, elements and links
 };
 

@@ -1,6 +1,7 @@
 // A solve that was stopped, or whose process ended, goes on from its last checkpoint to the same
 // bits as one that was not: from after every sweep, and from within every stage.
 #include <cstring>
+#include <map>
 #include <vector>
 
 #include "solver/checkpoint_files.h"
@@ -113,6 +114,37 @@ void checkpoints_are_written_on_the_way() {
       CHECK(other.state_hash() == whole->state_hash());
       CHECK_EQUAL(other.stats().rays, whole->stats().rays);
       CHECK_EQUAL(other.stats().iterations, whole->stats().iterations);
+    }
+  }
+}
+
+// Within a round that has made elements already, which are not in the file: their passes report no
+// progress beyond the first one's.
+void checkpoints_within_later_passes() {
+  const Folder folder("passes");
+  for (const SolveCase& c : {SolveCase{"cornell", "pairs", "error", 0.2},
+                             SolveCase{"cornell", "clusters", "error", 0.3}}) {
+    const auto whole = solver_of(c), solver = solver_of(c);
+    whole->solve();
+    solver->set_int("resumable", 1);
+    std::map<int64_t, std::string> files;  // the last one of each round
+    double last = 0;
+    solver->set_progress([&](const hrad::Progress& progress) {
+      const bool later = progress.stage == std::string("refine") && progress.fraction == last;
+      last = progress.fraction;
+      if (!later) return true;
+      solver->write_checkpoint(folder.file("a.hrad"));
+      files[progress.iteration] = bytes_of_file(folder.file("a.hrad"));
+      return true;
+    });
+    solver->solve();
+    CHECK(files.size() >= 2);
+    for (const auto& [iteration, bytes] : files) {
+      write_bytes(folder.file("b.hrad"), bytes);
+      Solver other;
+      other.read_checkpoint(folder.file("b.hrad"));
+      CHECK(other.solve() != Status::stopped);
+      CHECK(other.state_hash() == whole->state_hash());
     }
   }
 }
@@ -259,6 +291,7 @@ void light_and_sweeps_alone_are_kept_as_well() {
 int main() {
   const CMUnitTest tests[] = {HRAD_TEST(a_stopped_solve_goes_on_from_its_checkpoint),
                               HRAD_TEST(checkpoints_are_written_on_the_way),
+                              HRAD_TEST(checkpoints_within_later_passes),
                               HRAD_TEST(finished_tasks_are_not_done_again),
                               HRAD_TEST(steps_of_other_links_are_forgotten),
                               HRAD_TEST(a_method_that_changes_begins_anew),
