@@ -39,8 +39,8 @@ grep -q "not converged" err || complain "$ran: nothing said: $(cat err)"
 holds 'j["converged"] is False and j["status"] == "HRAD_NOT_CONVERGED"'
 
 # One of many processes that don't find each other must not do the work of all, and what takes one
-# process is the first one's work.
-OMPI_COMM_WORLD_SIZE=2 refuses 8 "one of 2 processes" solve cornell --accuracy 0.1
+# process is the first one's work. (What an MPI that begins and ends leaves is its own affair.)
+ASAN_OPTIONS=detect_leaks=0 OMPI_COMM_WORLD_SIZE=2 refuses 8 "one of 2 processes" solve cornell --accuracy 0.1
 if ! grep -q '^HRAD_MPI:BOOL=ON' "$HRAD_BINARY_DIR/CMakeCache.txt"; then
   refuses 8 "no MPI" solve cornell --mpi on
   refuses 8 "no MPI" info cornell --mpi on
