@@ -24,17 +24,28 @@ def report(rule, offences):
     return not offences
 
 
+def is_sanitized(binary):
+    """Whether the library was built with a sanitizer, which adds symbols and globals of its own: the
+    rules on archives are for the ordinary one."""
+    try:
+        with open(os.path.join(binary, "CMakeCache.txt")) as cache:
+            return any(line.startswith("CMAKE_CXX_FLAGS:") and "-fsanitize" in line for line in cache)
+    except OSError:
+        return False
+
+
 def main():
     source = os.environ.get("HRAD_SOURCE_DIR") or os.path.dirname(os.path.dirname(HERE))
     binary = os.environ.get("HRAD_BINARY_DIR") or os.path.join(source, "build")
     archive = os.path.join(binary, "lib", "libhrad.a")
     tree = Tree(source)
     kept = [report(rule, rule(tree)) for rule in source_rules.RULES]
+    rules = [] if is_sanitized(binary) else archive_rules.RULES
     try:
         symbols = archive_rules.read_archive(archive)
-        kept += [report(rule, rule(tree, symbols)) for rule in archive_rules.RULES]
+        kept += [report(rule, rule(tree, symbols)) for rule in rules]
     except archive_rules.ArchiveError as error:
-        kept += [report(rule, [Offence(archive, 0, str(error))]) for rule in archive_rules.RULES]
+        kept += [report(rule, [Offence(archive, 0, str(error))]) for rule in rules]
     print("%d passed, %d failed" % (kept.count(True), kept.count(False)))
     return 0 if all(kept) else 1
 
