@@ -53,7 +53,6 @@ CheckpointSizes sizes_of(const CheckpointView& view) {
   s.vertices = static_cast<int64_t>(scene.vertices.size());
   s.materials = static_cast<int64_t>(scene.materials.size());
   s.patches = scene.patch_count();
-  s.steps = view.journal ? static_cast<int64_t>(view.journal->steps().size()) : 0;
   if (!state) return s;
   const auto nodes = state->nodes_in_order >= 0 ? state->nodes_in_order
                                                 : static_cast<int64_t>(state->forest.nodes.size());
@@ -183,7 +182,7 @@ void pack_progress(const CheckpointView& view, PackedBytes& bytes) {
     bytes.varint(static_cast<uint64_t>(count));
   bytes.u64(p.light_hash);
   bytes.u64(p.mesh_hash);
-  bytes.u64(view.journal && !view.journal->empty() ? view.journal->key() : 0);
+  bytes.u64(view.journal ? view.journal->key() : 0);
   for (double number :
        {p.scale, p.accuracy_reached, p.convergence.tolerance(), view.stats.error_estimate,
         view.stats.error_standard_error, view.balance.back_share, view.inspection.back_share,
