@@ -53,7 +53,9 @@ def _watch(listener):
         except GeneratorExit:
             return
         except BaseException as error:
-            listener.keep(error)
+            # Without this frame in its traceback: who clears the frames of that, as unittest does,
+            # would end the generator.
+            listener.keep(error.with_traceback(error.__traceback__.tb_next))
             answer = 1
 
 

@@ -11,10 +11,11 @@ class Solving(Handle):
     """The solve, what it tells meanwhile, and its counts afterwards."""
 
     def set_progress(self, function):
-        """[L] Sets the progress function, None for none: function(progress) is called several times a
-        second with a Progress, on the thread that called solve(), on rank 0; what is true stops the
-        solve. What it raises stops the solve too, and solve() raises it. It must not call methods of
-        the solver that called it, which answer STATE, except request_stop and write_checkpoint."""
+        """[L] Sets the progress function, None for none: function(progress) is called with a
+        Progress at every safe point, which may be a thousand times a second, on the thread that called
+        solve(), on rank 0; what is true stops the solve. What it raises stops the solve too, and
+        solve() raises it. It must not call methods of the solver that called it, which answer STATE,
+        except request_stop and write_checkpoint."""
         self._listener.progress = function
 
     def solve(self):
