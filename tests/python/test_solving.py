@@ -78,7 +78,7 @@ class Solving(support.Case):
         solver.destroy()
         # One that calls back into itself is freed too.
         solver = cornell()
-        solver.set_progress(lambda progress: solver.request_stop())
+        solver.set_progress(lambda progress, own=solver: own.request_stop())
         dropped = weakref.ref(solver)
         del solver
         gc.collect()

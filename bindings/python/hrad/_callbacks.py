@@ -60,8 +60,8 @@ def _watch(listener):
 
 
 def log_callback(listener):
-    """The log callback for C; it must be kept as long as C has it. An exception stops a solve at its
-    next call of the progress callback."""
+    """The log callback for C; it must be kept as long as C has it. An exception stops a solve at
+    its next call of the progress callback."""
     def write(level, message, _):
         try:
             if listener.log and not listener.failed:

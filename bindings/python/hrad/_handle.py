@@ -43,10 +43,10 @@ class Handle:
         return bands.value
 
     def destroy(self):
-        """[C] Frees the solver and everything in it; all its methods but this one fail from then on. The
-        end of a `with` block does it, and so does Python when it drops a solver, except one over MPI,
-        whose ranks must do it together. Errors: STATE from a callback of the same solver, which lives
-        on."""
+        """[C] Frees the solver and everything in it; all its methods but this one fail from then
+        on. The end of a `with` block does it, and so does Python when it drops a solver, except one
+        over MPI, whose ranks must do it together. Errors: STATE from a callback of the same solver,
+        which lives on."""
         call("destroy", ctypes.byref(self._solver))
         if self._solver:
             raise Error(ERROR_STATE, error_message())

@@ -36,18 +36,18 @@ class Parameters(Handle):
         self.set_text(name, str(value))
 
     def __getitem__(self, name):
-        """[L] A parameter as int, float or str, whichever is its type. Errors: ARGUMENT for an unknown
-        name."""
+        """[L] A parameter as int, float or str, whichever is its type. Errors: ARGUMENT for an
+        unknown name."""
         kind = next((row.type for row in params() if row.name == name), PARAM_TEXT)
         read = {PARAM_INT: self.get_int, PARAM_DOUBLE: self.get_double, PARAM_TEXT: self.get_text}
         return read[kind](name)
 
     def set_int(self, name, value):
-        """[C] Sets a parameter whose type is int. Errors: ARGUMENT for an unknown name, a wrong type or
-        a value out of range (the message names the range); STATE for a result parameter after solve()
-        has begun, unless it is a smaller `accuracy`, a larger `max_iterations`, `refine`, or the value
-        it already has. `bands` only before the first material, `visibility` only before
-        partition()."""
+        """[C] Sets a parameter whose type is int. Errors: ARGUMENT for an unknown name, a wrong
+        type or a value out of range (the message names the range); STATE for a result parameter
+        after solve() has begun, unless it is a smaller `accuracy`, a larger `max_iterations`,
+        `refine`, or the value it already has. `bands` only before the first material, `visibility`
+        only before partition()."""
         self._call("set_int", name, value)
 
     def set_double(self, name, value):

@@ -30,8 +30,8 @@ class Scene(Handle):
     """Scenes from arrays, OBJ files or built-in ones."""
 
     def add_material(self, reflectance=None, emission=None, flags=0, name=None):
-        """[C] Adds a material and returns its number (from 0). reflectance: (bands,), in [0, 1), None:
-        0.5 in every band; emission: (bands,), W/m2: 0, or 1e-30 to 1e30, None: 0; flags:
+        """[C] Adds a material and returns its number (from 0). reflectance: (bands,), in [0, 1),
+        None: 0.5 in every band; emission: (bands,), W/m2: 0, or 1e-30 to 1e30, None: 0; flags:
         hrad.TWO_SIDED | hrad.BLOCKER. Errors: ARGUMENT for a value out of range or not finite, or a
         blocker with emission; STATE after partition()."""
         material, number = sized(CMaterial), ctypes.c_int32()
@@ -48,13 +48,13 @@ class Scene(Handle):
         return number.value
 
     def add_patches(self, xyz, vertex, material=None):
-        """[C] Adds patches: xyz (n_vertices, 3), corners in the scene's unit; vertex (n_triangles, 3),
-        whole numbers, indices into this call's vertices (from 0), anticlockwise seen from the front;
-        material (n_triangles,), numbers of materials, None: the material added first, or reflectance
-        0.5 if there is none. May be called repeatedly; patch numbers go on. Arrays of float64, int64
-        and int32 in C order are read as they are, others are copied first. Errors: ARGUMENT for an
-        index out of range, a coordinate not finite or beyond 1e30; STATE after partition(); MEMORY.
-        Nothing is added then."""
+        """[C] Adds patches: xyz (n_vertices, 3), corners in the scene's unit; vertex (n_triangles,
+        3), whole numbers, indices into this call's vertices (from 0), anticlockwise seen from the
+        front; material (n_triangles,), numbers of materials, None: the material added first, or
+        reflectance 0.5 if there is none. May be called repeatedly; patch numbers go on. Arrays of
+        float64, int64 and int32 in C order are read as they are, others are copied first. Errors:
+        ARGUMENT for an index out of range, a coordinate not finite or beyond 1e30; STATE after
+        partition(); MEMORY. Nothing is added then."""
         xyz = given("xyz", xyz, (None, 3))
         vertex = given("vertex", vertex, (None, 3), np.int64)
         if material is not None:
@@ -62,14 +62,14 @@ class Scene(Handle):
         self._call("add_patches", len(xyz), xyz, len(vertex), vertex, material)
 
     def load_scene(self, path):
-        """[C] Loads an OBJ file with its MTL files: what is read of them hrad.h tells. Needs bands = 1
-        or 3. Adds to what is there. Errors: FILE; SCENE with file:line; STATE after partition(), or for
-        other bands; MEMORY. Nothing is added then."""
+        """[C] Loads an OBJ file with its MTL files: what is read of them hrad.h tells. Needs bands
+        = 1 or 3. Adds to what is there. Errors: FILE; SCENE with file:line; STATE after
+        partition(), or for other bands; MEMORY. Nothing is added then."""
         self._call("load_scene", path)
 
     def make_scene(self, name):
-        """[C] Makes a built-in scene (see hrad.scene_names) in an empty solver. Errors: ARGUMENT for an
-        unknown name; STATE if there are patches or materials already."""
+        """[C] Makes a built-in scene (see hrad.scene_names) in an empty solver. Errors: ARGUMENT
+        for an unknown name; STATE if there are patches or materials already."""
         self._call("make_scene", name)
 
     def scene_size(self):
@@ -93,9 +93,9 @@ class Scene(Handle):
         return Material(reflectance, emission, flags.value, name)
 
     def get_diagnostic(self, index):
-        """[L] Diagnostic `index` (from 0) of the scene: something doubtful that was kept, repaired or
-        dropped, one sentence. More is known after partition(), and after solve(). Errors: ARGUMENT past
-        the last."""
+        """[L] Diagnostic `index` (from 0) of the scene: something doubtful that was kept, repaired
+        or dropped, one sentence. More is known after partition(), and after solve(). Errors:
+        ARGUMENT past the last."""
         return self._text("get_diagnostic", index)
 
     def diagnostics(self):
@@ -108,15 +108,15 @@ class Scene(Handle):
                 return found
 
     def set_emission(self, first_patch, emission):
-        """[C] Sets the emission of patches from `first_patch` on: (count, bands), W/m2: 0, or 1e-30 to
-        1e30. Also after a solve: the next solve() then starts from B = E, with refine = 0 on the mesh
-        and the links as they are. Errors: ARGUMENT for ranges and values; STATE for a blocker with
-        emission."""
+        """[C] Sets the emission of patches from `first_patch` on: (count, bands), W/m2: 0, or 1e-30
+        to 1e30. Also after a solve: the next solve() then starts from B = E, with refine = 0 on the
+        mesh and the links as they are. Errors: ARGUMENT for ranges and values; STATE for a blocker
+        with emission."""
         emission = given("emission", emission, (None, self._bands()))
         self._call("set_emission", first_patch, len(emission), emission)
 
     def set_reflectance(self, first_patch, reflectance):
-        """[C] Sets the reflectance, in [0, 1), of patches from `first_patch` on: (count, bands). Else
-        like set_emission."""
+        """[C] Sets the reflectance, in [0, 1), of patches from `first_patch` on: (count, bands).
+        Else like set_emission."""
         reflectance = given("reflectance", reflectance, (None, self._bands()))
         self._call("set_reflectance", first_patch, len(reflectance), reflectance)
