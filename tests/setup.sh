@@ -17,6 +17,8 @@ case "${1:-build}" in
     optional+=(libembree-dev)
     # The module for Fortran programs.
     optional+=(gfortran)
+    # The module for Python programs, also on several processes.
+    optional+=(python3-numpy python3-mpi4py)
     # Its libFuzzer looks for input that breaks the readers and the C interface.
     optional+=(clang)
     # Checks the manual pages.

@@ -32,6 +32,12 @@ class Readme(unittest.TestCase):
         lines = [line[4:] for line in head.splitlines() if line.startswith("!   ")]
         self.assertEqual(shown.splitlines(), lines)
 
+    def test_python_program_is_the_one_in_the_module(self):
+        (shown,) = re.findall(r"^```python\n(.*?)^```", read("README.md"), re.M | re.S)
+        head = read("bindings/python/hrad/__init__.py").split('"""')[1]
+        (program,) = re.findall(r"A whole program:\n\n(.*?)\n\n(?=\w)", head, re.S)
+        self.assertEqual(shown.splitlines(), [line[4:] for line in program.splitlines()])
+
     def test_paths_exist(self):
         text = read("README.md")
         paths = re.findall(r"`((?:lib|cli|tests|include|bindings|man|pkgconfig)/[\w./]*)`", text)
@@ -64,6 +70,9 @@ class Version(unittest.TestCase):
         self.assertIn(f"\nversion: {version}\n", read("CITATION.cff"))
         newest = re.search(r"^## \[([^]]+)\]", read("CHANGELOG.md"), re.M).group(1)
         self.assertEqual(newest, version)
+        constants = read("bindings/python/hrad/_constants.py")
+        for part, number in zip(("MAJOR", "MINOR", "PATCH"), version.split(".")):
+            self.assertIn(f"\nVERSION_{part} = {number}\n", constants)
 
 
 if __name__ == "__main__":
