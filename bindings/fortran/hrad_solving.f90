@@ -15,7 +15,7 @@ module hrad_solving
 
 contains
 
-  ! From now on progress(progress, context) is called several times a second while hrad_solve runs,
+  ! From now on progress(progress, context) is called between tasks while hrad_solve runs,
   ! on rank 0's calling thread; .true. stops the solve. Without it there are no calls (the default).
   ! context must have the attribute target and live as long as it may be called with it. Errors:
   ! ARGUMENT for an empty solver.

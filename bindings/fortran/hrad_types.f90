@@ -103,8 +103,8 @@ module hrad_types
       class(*), intent(inout), optional :: context
     end subroutine hrad_log_procedure
 
-    ! Called several times a second while a solve runs; .true. stops it. context is what was given
-    ! to hrad_set_progress, absent if nothing was.
+    ! Called between tasks, up to some thousand times a second, while a solve runs; .true. stops it.
+    ! context is what was given to hrad_set_progress, absent if nothing was.
     logical function hrad_progress_procedure(progress, context)
       import :: hrad_progress
       type(hrad_progress), intent(in) :: progress

@@ -341,7 +341,8 @@ typedef struct hrad_progress {
   double seconds_left; /* estimate; negative while unknown */
 } hrad_progress;
 
-/* Called several times a second on rank 0's calling thread; nonzero stops the solve. */
+/* Called between tasks, up to some thousand times a second, on rank 0's calling thread; nonzero stops
+ * the solve. */
 typedef int32_t (*hrad_progress_function)(const hrad_progress* progress, void* user);
 
 /* [L] Sets the progress callback; NULL for none. */
