@@ -31,7 +31,7 @@ begin() { # COMMAND, CHECKPOINT
   until_said '^hrad: stage'
 }
 until_said() {
-  until grep -q -e "$1" err || ! kill -0 $process 2>/dev/null; do sleep 0.02; done
+  until grep -qs -e "$1" err || ! kill -0 $process 2>/dev/null; do sleep 0.02; done
 }
 end_with() { # CODE TEXT
   kill -s USR1 $process 2>/dev/null || complain "$ran: it ended by itself: $(tail -n 3 err)"
