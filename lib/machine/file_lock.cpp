@@ -31,18 +31,19 @@ bool still_has_name(int file, const std::string& name) {
 
 }  // namespace
 
-std::string FileLock::lock_name(const std::string& path) {
+std::string FileLock::resolved(const std::string& path) {
   std::string resolved;
-  if (resolve_path(path, resolved)) return resolved + ".lock";
+  if (resolve_path(path, resolved)) return resolved;
   // Of a file that is not there yet, the folder has a name that stays.
   const size_t slash = path.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
   const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
   if (!resolve_path(folder, resolved)) resolved = folder;
-  return resolved + (resolved.back() == '/' ? "" : "/") + name + ".lock";
+  return resolved + (resolved.back() == '/' ? "" : "/") + name;
 }
 
 FileLock::FileLock(const std::string& path) : name_(lock_name(path)) {
+  const TemporaryNames temporaries(resolved(path));
   for (int attempt = 0; attempt < attempts; ++attempt) {
     constexpr int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;
     file_ = ::open(name_.c_str(), flags | O_CREAT | O_EXCL, 0666);
@@ -54,8 +55,12 @@ FileLock::FileLock(const std::string& path) : name_(lock_name(path)) {
            std::strerror(errno));
     const int locked = ::flock(file_, LOCK_EX | LOCK_NB);
     const int error = errno;
-    if ((locked == 0 && still_has_name(file_, name_)) || (locked != 0 && has_no_locks(error)))
+    if (locked == 0 && still_has_name(file_, name_)) {
+      // Whoever could still be at work on them would hold the lock.
+      temporaries.remove_all();
       return;
+    }
+    if (locked != 0 && has_no_locks(error)) return;
     if (made && locked != 0 && error != EWOULDBLOCK && error != EINTR) ::unlink(name_.c_str());
     ::close(file_);
     file_ = -1;
@@ -70,8 +75,9 @@ FileLock::FileLock(const std::string& path) : name_(lock_name(path)) {
 
 FileLock::~FileLock() {
   if (file_ < 0) return;
-  // While it is still locked: nobody else can have it by this name.
-  ::unlink(name_.c_str());
+  // While it is still locked nobody else can have it by this name; but the folder may have been
+  // removed, and another one have its name.
+  if (still_has_name(file_, name_)) ::unlink(name_.c_str());
   ::close(file_);
 }
 

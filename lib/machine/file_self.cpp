@@ -1,6 +1,7 @@
 // Files of one process. Writing: temporary, checked writes, fsync, rename. Floor 2 (machine).
 #include "machine/file_self.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "machine/descriptor.h"
 
 namespace hrad {
@@ -26,7 +28,46 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
+constexpr char temporary_end[] = ".tmp";
+
+uint64_t hash_of(const char* text) {
+  Hasher hasher;
+  hasher.add(text);
+  return hasher.value();
+}
+
 }  // namespace
+
+// Of the name in the folder, which may be reached by other paths elsewhere; and of a length of
+// their own, because that name may already be as long as the file system allows.
+TemporaryNames::TemporaryNames(const std::string& target)
+    : folder(folder_of(target)),
+      beginning(format(".hrad-%016llx-", static_cast<unsigned long long>(
+                                             hash_of(target.c_str() + (target.rfind('/') + 1))))) {}
+
+// Processes of several machines may have one number.
+std::string TemporaryNames::name(int attempt) const {
+  char host[256] = "";
+  ::gethostname(host, sizeof host - 1);
+  return folder + (folder.back() == '/' ? "" : "/") + beginning +
+         format("%08x-%ld-%d", static_cast<unsigned>(hash_of(host) >> 32),
+                static_cast<long>(::getpid()), attempt) +
+         temporary_end;
+}
+
+// Allocates nothing by itself, so that nothing is thrown where the lock was just taken.
+void TemporaryNames::remove_all() const {
+  DIR* entries = ::opendir(folder.c_str());
+  if (!entries) return;
+  while (const dirent* entry = ::readdir(entries)) {
+    const size_t length = std::strlen(entry->d_name), end = sizeof temporary_end - 1;
+    if (length > beginning.size() + end &&
+        beginning.compare(0, beginning.size(), entry->d_name, beginning.size()) == 0 &&
+        std::strcmp(entry->d_name + length - end, temporary_end) == 0)
+      ::unlinkat(::dirfd(entries), entry->d_name, 0);
+  }
+  ::closedir(entries);
+}
 
 WholeFile::WholeFile(const std::string& path) : path_(path), target_(path) {
   if (path.empty()) fail_here("create", ENOENT);
@@ -64,17 +105,11 @@ void WholeFile::fail_here(const char* step, int error) const {
   fail(Status::file, "%s: cannot %s: %s", path_.c_str(), step, std::strerror(error));
 }
 
-// A name of its own length: the target's may already be as long as the file system allows.
-std::string WholeFile::new_name(int attempt) const {
-  const std::string folder = folder_of(target_);
-  return folder + (folder.back() == '/' ? "" : "/") +
-         format(".hrad-%ld-%d.tmp", static_cast<long>(::getpid()), attempt);
-}
-
 // Of a new file the process's umask decides the mode.
 void WholeFile::create_temporary() {
+  const TemporaryNames names(target_);
   for (int attempt = 0; attempt < name_attempts; ++attempt) {
-    std::string name = new_name(attempt);
+    std::string name = names.name(attempt);
     file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ >= 0) {
       temporary_ = std::move(name);  // without allocation: from here it is removed
@@ -136,8 +171,9 @@ std::string WholeFile::name_of_older(int number) const {
 
 // False: there is no old file, or the file system knows no second names.
 bool WholeFile::keep_second_name() {
+  const TemporaryNames names(target_);
   for (int attempt = 0; attempt < name_attempts; ++attempt) {
-    std::string name = new_name(attempt);
+    std::string name = names.name(attempt);
     if (::link(target_.c_str(), name.c_str()) == 0) {
       second_name_ = std::move(name);
       return true;

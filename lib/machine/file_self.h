@@ -11,6 +11,19 @@
 
 namespace hrad {
 
+// What the temporaries of a file are called: they lie beside it and carry a hash of its name, so
+// that they can be told from those of other files, a hash of the machine's name, and the number of
+// the process that writes.
+struct TemporaryNames {
+  explicit TemporaryNames(const std::string& target);  // no symbolic link
+  std::string name(int attempt) const;
+  // Removes all of them, whichever process of whichever machine they are of: for who keeps every
+  // other writer of the target away (FileLock). What can't be removed stays.
+  void remove_all() const;
+
+  std::string folder, beginning;
+};
+
 // Bytes go to a temporary beside the target; commit() puts it in the target's place. Until then,
 // and when anything fails, the old file is untouched. A symbolic link is followed; a target that is
 // no regular file (a folder, a device) is refused. Every failure throws FILE with the path and the
@@ -45,7 +58,6 @@ class WholeFile {
   void create_temporary();
   void write_out();
   void write_here(uint64_t offset, const char* data, size_t size);
-  std::string new_name(int attempt) const;
   std::string name_of_older(int number) const;
   bool keep_second_name();
   void move_older(int older);

@@ -44,7 +44,6 @@ while :; do
 done
 [ $runs -gt 2 ] || complain "the job was over after $runs runs"
 holds "j['state_hash'] == '$wanted'"
-rm -f .hrad-*.tmp job.hrad.lock  # what the killed ones left
 only job.hrad job.hrad.prev job.hrad.prev2
 
 # Once more: nothing is left to do, and the file stays as it is.
@@ -74,7 +73,7 @@ wait $process
 code=$?
 [ $code = 143 ] || [ $code = 75 ] || complain "two SIGTERM: exit code $code"
 works check a.hrad
-rm -f a.hrad* before .hrad-*.tmp
+rm -f a.hrad* before .hrad-*.tmp  # what was stopped in the midst of writing has left
 
 # Files as input and output.
 works solve cornell --accuracy 0.3 -o c.hrad -o direct.csv --json

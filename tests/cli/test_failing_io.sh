@@ -64,14 +64,4 @@ for error in 28 5 122 4 30 0; do
   done
 done
 [ $failed -gt "$calls" ] || complain "only $failed attempts failed"
-
-# A limit on the size of files, and no room at all.
-(
-  ulimit -f 4
-  trap '' XFSZ
-  "$HRAD" solve small.hrad --checkpoint big.hrad >out 2>err
-  [ $? = 5 ]
-) || complain "a limit on file sizes: $(cat err)"
-[ -e big.hrad ] && complain "a limit on file sizes: a file was written"
-ls -A | grep -q '\.tmp$' && complain "a limit on file sizes: left behind: $(ls -A)"
 finish

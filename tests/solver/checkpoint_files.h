@@ -1,50 +1,16 @@
-// What the tests of checkpoints share: a folder of their own, solvers, files as bytes.
+// What the tests of checkpoints share: solvers, and a folder of their own with files as bytes.
 #pragma once
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <fstream>  // before cmocka, whose fail() is a macro
 #include <memory>
-#include <random>
 #include <string>
 
 #include "base/error.h"
 #include "solver/solver.h"
 #include "support/check.h"
+#include "support/folder.h"
 
 namespace hrad_test {
-
-// A folder that is gone when the test is.
-class Folder {
- public:
-  explicit Folder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() /
-              ("hrad-" + name + "-" + std::to_string(std::random_device()()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  // How many files are there.
-  int64_t count() const {
-    return std::distance(std::filesystem::directory_iterator(path_),
-                         std::filesystem::directory_iterator());
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string bytes_of_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-inline void write_bytes(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 
 struct SolveCase {
   const char* scene;
