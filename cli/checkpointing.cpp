@@ -100,28 +100,35 @@ bool Checkpointing::stops(const hrad_progress& progress) {
   due_ =
       signals::take_checkpoint_request() || due_ ||
       std::chrono::duration<double>(Clock::now() - last_written_).count() >= plan_.interval_seconds;
-  if (due_ && launcher::several())
-    pauses_ = may_pause(progress);
-  else if (due_)
-    write_on_the_way();
+  if (!launcher::several()) {
+    if (due_) write_on_the_way();
+    return false;
+  }
+  pauses_ = may_pause(progress) && due_;
+  if (pauses_) {
+    paused_iteration_ = progress.iteration;
+    paused_fraction_ = progress.fraction;
+  }
   return pauses_;
 }
 
-// Not before the solve has gone on from where it paused last, or it never would; a measurement
-// would begin anew.
+// Not before the solve has gone on from where it paused last for as long as it took to get there
+// again, or it would hardly get any further; and a measurement would begin anew.
 bool Checkpointing::may_pause(const hrad_progress& progress) {
-  if (progress.stage == nullptr || std::strcmp(progress.stage, "measure") == 0 ||
-      (progress.iteration <= paused_iteration_ && progress.fraction <= paused_fraction_))
+  if (progress.iteration <= paused_iteration_ && progress.fraction <= paused_fraction_)
     return false;
-  paused_iteration_ = progress.iteration;
-  paused_fraction_ = progress.fraction;
-  return true;
+  const Clock::time_point now = Clock::now();
+  if (!caught_up_) caught_up_at_ = now;
+  caught_up_ = true;
+  return progress.stage != nullptr && std::strcmp(progress.stage, "measure") != 0 &&
+         now - caught_up_at_ >= caught_up_at_ - resumed_at_;
 }
 
 int Checkpointing::solve() {
   hrad_status status = HRAD_OK;
   for (;;) {
-    pauses_ = false;
+    pauses_ = caught_up_ = false;
+    resumed_at_ = Clock::now();
     status = session_->solve_until([this](const hrad_progress& p) { return stops(p); });
     signals::check();
     if (status != HRAD_STOPPED) break;

@@ -45,6 +45,8 @@ class Checkpointing {
   bool pauses_ = false;            // the solve was stopped to write it
   int64_t paused_iteration_ = -1;  // where it was the last time
   double paused_fraction_ = -1;
+  bool caught_up_ = false;  // the solve has got there again since
+  Clock::time_point resumed_at_, caught_up_at_;
   int64_t sweeps_written_ = -1;  // what the file under the checkpoint's name has, -1: not ours
   int32_t converged_written_ = 0;
 };

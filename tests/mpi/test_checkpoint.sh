@@ -76,8 +76,8 @@ for signal in USR1 TERM; do
   rm -f a.hrad*
 done
 
-# A job of many short runs on other numbers of processes each time. A round is begun anew, so that the
-# limit must outgrow the longest one.
+# A job of many short runs on other numbers of processes each time. On a busy machine a second may be
+# over before they have found each other.
 runs=0
 while :; do
   runs=$((runs + 1))
