@@ -48,6 +48,7 @@ _hrad() {
   fi
   case $previous in
     --set)
+      # shellcheck disable=SC2086  # one word a parameter
       _hrad_words "$(printf '%s= ' $_hrad_params)" "$word"
       compopt -o nospace 2>/dev/null
       return

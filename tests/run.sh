@@ -4,7 +4,8 @@
 #   bash tests/run.sh          every test, some minutes on two cores; with clang and its libFuzzer
 #                              also every fuzz target for a minute
 #   bash tests/run.sh --full   before that the same tests under the address, undefined behaviour and
-#                              thread sanitizers, and all benchmarks
+#                              thread sanitizers, a build without options, Debian packages
+#                              (tests/packages.sh), the linters (tests/lint.sh), and all benchmarks
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -31,6 +32,18 @@ run_tests() {
   ctest --test-dir "$1" --output-on-failure --no-tests=error -j2 --timeout "$2"
 }
 
+# The library and the tool without all that is optional, and tests of each kind that tell.
+test_without_options() {
+  local generator=(-G Ninja)
+  if [[ -f build-plain/CMakeCache.txt ]]; then generator=(); fi
+  cmake --preset release -B build-plain "${generator[@]}" -DHRAD_TESTS=ON -DHRAD_WERROR=ON -DHRAD_MPI=OFF \
+    -DHRAD_FORTRAN=OFF -DHRAD_EMBREE=OFF -DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON
+  cmake --build build-plain --parallel "$(nproc)" --target hrad_cli hrad_man test_api_solve \
+    test_api_checkpoint test_physics_furnaces test_solver_ranks_few
+  ctest --test-dir build-plain --output-on-failure --no-tests=error -j2 --timeout 600 -R \
+    '^(api_solve|api_checkpoint|physics_furnaces|solver_ranks_few|cli_usage|cli_query|cli_json|consumers_.*|style_style)$'
+}
+
 # fuzz SECONDS: every fuzz target for so long, from the corpus in the tree; what it finds beside it
 # stays in build-fuzz. Nothing without clang and libFuzzer.
 fuzz() {
@@ -54,13 +67,16 @@ fuzz() {
   done
 }
 
-bash tests/setup.sh tests
+bash tests/setup.sh "$($full && echo full || echo tests)"
 
 if $full; then
   for sanitizer in asan tsan; do
     build "$sanitizer" "build-$sanitizer"
     run_tests "build-$sanitizer" 3600
   done
+  test_without_options
+  bash tests/packages.sh
+  bash tests/lint.sh
 fi
 
 build release build-tests

@@ -3,6 +3,7 @@
 # all are there.
 #   bash tests/setup.sh         what building the library and the tool needs
 #   bash tests/setup.sh tests   and what the tests need besides
+#   bash tests/setup.sh full    and what the linters and the packages need
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev libpng-dev
@@ -11,7 +12,7 @@ packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev libpng-dev
 optional=(libopenmpi-dev openmpi-bin)
 case "${1:-build}" in
   build) ;;
-  tests)
+  tests | full)
     packages+=(libcmocka-dev python3)
     # The second ray engine, against which the built-in one is checked; not on every architecture.
     optional+=(libembree-dev)
@@ -21,11 +22,17 @@ case "${1:-build}" in
     optional+=(python3-numpy python3-mpi4py)
     # Its libFuzzer looks for input that breaks the readers and the C interface.
     optional+=(clang)
-    # Checks the manual pages.
-    optional+=(mandoc)
+    # They check the manual pages and the scripts.
+    optional+=(mandoc shellcheck)
+    if [[ $1 == full ]]; then
+      # The other linters.
+      optional+=(clang-tidy cppcheck lintian)
+      # What packages depend on, and a bare system to try them in.
+      optional+=(dpkg-dev debootstrap)
+    fi
     ;;
   *)
-    echo "usage: bash tests/setup.sh [build|tests]" >&2
+    echo "usage: bash tests/setup.sh [build|tests|full]" >&2
     exit 2
     ;;
 esac

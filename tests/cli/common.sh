@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # What the tests of the command-line tool share: sourced, never run. HRAD is the tool.
 set -u
 : "${HRAD:?the path of the tool}" "${HRAD_SOURCE_DIR:?the path of the sources}"

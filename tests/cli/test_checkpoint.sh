@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # Solves that are stopped and go on: by the time limit in a queue's loop, by signals, from damaged
 # files; what is refused; .hrad files as input and output of every command.
 . "$(dirname "$0")/common.sh"

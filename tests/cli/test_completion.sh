@@ -1,8 +1,10 @@
+#!/usr/bin/env bash
 # The bash completion names the same commands, options and parameters as the tool.
 . "$(dirname "$0")/common.sh"
+# shellcheck disable=SC2317
 complete() { :; }  # a builtin of interactive shells; the lists and functions are wanted here
 compopt() { :; }
-# shellcheck source=/dev/null
+# shellcheck source=cli/hrad.bash
 . "$HRAD_SOURCE_DIR/cli/hrad.bash"
 unset -f complete
 PATH=$(dirname "$HRAD"):$PATH

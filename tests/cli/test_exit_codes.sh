@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # What ends with which code when the command line itself is right: scene 3, input and output 5, not
 # converged 7 with its results, MPI 8.
 . "$(dirname "$0")/common.sh"

@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # Every call that writes a checkpoint made to fail in turn, once and from then on: the file that was
 # there is whole, or the new one is; nothing else is left; the exit code is 5 with what happened.
 . "$(dirname "$0")/common.sh"

@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # hrad info names the faults of a scene: those of a published one, and small ones made after faults
 # that published scenes have. Nothing it prints can be mistaken for a command to the terminal.
 . "$(dirname "$0")/common.sh"

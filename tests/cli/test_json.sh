@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # --json of every command that has it: one valid object with the promised fields, and the same
 # numbers as the library gives.
 . "$(dirname "$0")/common.sh"

@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # Files that -o names: judged before the solve, written whole after it.
 . "$(dirname "$0")/common.sh"
 

@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # hrad query: the tables it prints, where sensors stand, and that they agree with each other.
 . "$(dirname "$0")/common.sh"
 

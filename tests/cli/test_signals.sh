@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # SIGINT, SIGTERM and SIGUSR1 stop a solve: exit code 128 + signal, nothing on stdout, no file.
 . "$(dirname "$0")/common.sh"
 

@@ -1,3 +1,4 @@
+#!/usr/bin/env bash
 # Usage: --help and --version succeed on stdout; every wrong use ends with 2, one sentence and
 # nothing on stdout.
 . "$(dirname "$0")/common.sh"

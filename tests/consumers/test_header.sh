@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# hrad.h in the hands of others: it compiles alone and twice over in every language it promises, with
-# all warnings as errors, and every function that it declares is in the library.
+# hrad.h in the hands of others: it compiles alone and twice over in every language it promises, by
+# every compiler that is here, with all warnings as errors, and every function that it declares is in
+# the library.
 set -euo pipefail
 
 folder=$(mktemp -d)
@@ -15,12 +16,20 @@ hrad_status use(hrad_solver **solver) { return hrad_create(solver); }
 END
 cp twice.c twice.cpp
 warnings=(-Wall -Wextra -pedantic -Werror -Wshadow -Wundef)
-for standard in c99 c11 c17; do
-  cc -std=$standard "${warnings[@]}" -Wstrict-prototypes -I"$HRAD_SOURCE_DIR/include" -c twice.c
-  cc -std=$standard "${warnings[@]}" -DHRAD_SHARED -I"$HRAD_SOURCE_DIR/include" -c twice.c
+for compiler in cc gcc clang; do
+  command -v $compiler >/dev/null || continue
+  for standard in c99 c11 c17; do
+    for shared in '' -DHRAD_SHARED; do
+      "$compiler" -std=$standard "${warnings[@]}" -Wstrict-prototypes $shared \
+        -I"$HRAD_SOURCE_DIR/include" -c twice.c
+    done
+  done
 done
-for standard in c++11 c++17 c++20; do
-  c++ -std=$standard "${warnings[@]}" -I"$HRAD_SOURCE_DIR/include" -c twice.cpp
+for compiler in c++ g++ clang++; do
+  command -v $compiler >/dev/null || continue
+  for standard in c++11 c++17 c++20; do
+    "$compiler" -std=$standard "${warnings[@]}" -I"$HRAD_SOURCE_DIR/include" -c twice.cpp
+  done
 done
 
 sed -n 's/^HRAD_API.*[ *]\(hrad_[a-z_]*\)(.*/\1/p' "$HRAD_SOURCE_DIR/include/hrad/hrad.h" |

@@ -23,12 +23,12 @@ export LD_LIBRARY_PATH=$library_path
 
 # Every function has a manual page under its own name; links lead to pages that are there.
 manual=$(dirname "$(find after -name man3)")
-for name in $(sed -n 's/^HRAD_API.*[ *]\(hrad_[a-z_]*\)(.*/\1/p' "$HRAD_SOURCE_DIR/include/hrad/hrad.h"); do
+while read -r name; do
   [[ -s $manual/man3/$name.3 ]] || { echo "no man page $name(3)" >&2 && exit 1; }
-done
-for link in $(sed -n 's/^\.so //p' "$manual"/man3/*); do
+done < <(sed -n 's/^HRAD_API.*[ *]\(hrad_[a-z_]*\)(.*/\1/p' "$HRAD_SOURCE_DIR/include/hrad/hrad.h")
+while read -r link; do
   [[ -s $manual/$link ]] || { echo "a link of man leads to $link, which is not there" >&2 && exit 1; }
-done
+done < <(sed -n 's/^\.so //p' "$manual"/man3/*)
 [[ -s $manual/man7/hrad-params.7 ]] || { echo "no man page hrad-params(7)" >&2 && exit 1; }
 
 runs() {  # PROGRAM
@@ -63,8 +63,8 @@ fi
 
 for language in "${languages[@]}"; do
   echo "CMake, $language"
-  cmake -S consumers/cmake -B "cmake-$language" -DLANGUAGE=$language \
-    -DCMAKE_PREFIX_PATH="$folder/after" -DCMAKE_${language}_FLAGS="$flags" >configured ||
+  cmake -S consumers/cmake -B "cmake-$language" -DLANGUAGE="$language" \
+    -DCMAKE_PREFIX_PATH="$folder/after" "-DCMAKE_${language}_FLAGS=$flags" >configured ||
     { cat configured && exit 1; }
   cmake --build "cmake-$language" >built || { cat built && exit 1; }
   runs "cmake-$language/work_plane"

@@ -8,6 +8,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
+# shellcheck disable=SC2016  # fences of Markdown
 sed -n '/^```fortran$/,/^```$/p' "$HRAD_SOURCE_DIR/README.md" | sed '1d;$d' >heat.f90
 link_fortran heat heat.f90
 ./heat | tee said

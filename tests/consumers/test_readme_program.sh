@@ -9,6 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
+# shellcheck disable=SC2016  # fences of Markdown
 sed -n '/^```c$/,/^```$/p' "$HRAD_SOURCE_DIR/README.md" | sed '1d;$d' >program.c
 link_program
 ./a.out | tee said

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # What the tests of the tool under mpirun share: sourced, never run. Skips the test where there is no
 # MPI.
 if ! grep -q '^HRAD_MPI:BOOL=ON' "$HRAD_BINARY_DIR/CMakeCache.txt" || ! command -v mpirun >/dev/null; then
@@ -34,7 +35,7 @@ signal_all() { kill -s "$1" "$(cat launcher)"; }
 
 # until_said TEXT: the ranks have said it, or are at their end.
 until_said() {
-  until grep -qs -- "$1" err || ! kill -0 $launched 2>/dev/null; do sleep 0.02; done
+  until grep -qs -- "$1" err || ! kill -0 "$launched" 2>/dev/null; do sleep 0.02; done
 }
 
 # is_at_work PROCESS: it is there, and no zombie that nobody has waited for.
@@ -58,7 +59,7 @@ all_are_gone() {
 
 # ends: waits for mpirun; its exit code in $code.
 ends() {
-  wait $launched
+  wait "$launched"
   code=$?
   all_are_gone
 }

@@ -69,7 +69,9 @@ for signal in USR1 TERM; do
   works check a.hrad
   says "state: "
   grep -q 'state: converged' out && complain "SIG$signal: the solve was over"
-  launch $([ $signal = USR1 ] && echo 3 || echo 1) solve "${scene[@]}" --threads 1 \
+  ranks=1
+  [ $signal = USR1 ] && ranks=3
+  launch $ranks solve "${scene[@]}" --threads 1 \
     --checkpoint a.hrad --restart auto --json
   ends
   is_whole

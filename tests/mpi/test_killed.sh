@@ -12,7 +12,7 @@ only_whole_files() {
   local file
   for file in *.hrad *.hrad.prev*; do
     [ -e "$file" ] || continue
-    "$HRAD" check "$file" >/dev/null 2>check || complain "$ran: $file is damaged: $(cat check)"
+    "$HRAD" check "$file" >/dev/null 2>damage || complain "$ran: $file is damaged: $(cat damage)"
   done
 }
 

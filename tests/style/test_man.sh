@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+#!/usr/bin/env bash
 # The manual pages are right mdoc, also the one that is made, and the one of the .hrad format names the
 # sections and the version that the library writes.
 cd "${HRAD_SOURCE_DIR:?the path of the sources}" || exit 1

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Every linter, each over what it knows; what it is not asked stands with the reason in its own file:
+#   man         mandoc over the manual pages, also the one that is made
+#   shell       shellcheck over the scripts                              .shellcheckrc
+#   cppcheck    lib and cli                                              tests/style/cppcheck.txt
+#   tidy        clang-tidy over lib and cli, half an hour on one core    .clang-tidy
+#   packages    lintian over the .deb files that cpack left in build folders, if any
+#   bash tests/lint.sh [LINTER...]   these, or all; those that are not installed are left out
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+linters=(man shell cppcheck tidy packages)
+for linter in "$@"; do
+  [[ " ${linters[*]} " == *" $linter "* ]] || {
+    echo "usage: bash tests/lint.sh [${linters[*]}]" >&2
+    exit 2
+  }
+done
+if [[ $# != 0 ]]; then linters=("$@"); fi
+
+is_here() {
+  command -v "$1" >/dev/null && return
+  echo "No $1: left out." >&2
+  return 1
+}
+
+# test_of NAME: a test of the tree that is a linter.
+test_of() {
+  local status=0
+  HRAD=$PWD/build-tests/hrad HRAD_SOURCE_DIR=$PWD HRAD_BINARY_DIR=$PWD/build-tests \
+    bash "tests/style/test_$1.sh" || status=$?
+  [[ $status == 0 || $status == 77 ]]
+}
+
+configure() {
+  local generator=(-G Ninja)
+  if [[ -f build-tests/CMakeCache.txt ]]; then generator=(); fi  # a configured folder keeps its own
+  cmake --preset release -B build-tests "${generator[@]}" -DHRAD_TESTS=ON \
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+}
+
+lint_man() {
+  configure && cmake --build build-tests --parallel "$(nproc)" --target hrad_cli >/dev/null || return
+  test_of man
+}
+
+lint_shell() { test_of shellcheck; }
+
+lint_cppcheck() {
+  is_here cppcheck || return 0
+  cppcheck --quiet --error-exitcode=1 --std=c++17 --language=c++ -I lib -I include -I cli \
+    -DHRAD_X86_KERNELS -DHRAD_PNG -DHRAD_CLI_MPI --enable=warning,performance,portability \
+    --suppressions-list=tests/style/cppcheck.txt lib cli
+}
+
+# Beside other work: one file at a time, and behind whatever else wants the processor.
+lint_tidy() {
+  is_here clang-tidy || return 0
+  configure || return
+  local sources source status=0
+  mapfile -t sources < <(python3 -c '
+import json
+for unit in json.load(open("build-tests/compile_commands.json")):
+    print(unit["file"])' | grep -E "^$PWD/(lib|cli)/" | sort -u)
+  [[ ${#sources[@]} != 0 ]] || return
+  for source in "${sources[@]}"; do
+    # What it says of how much it has left out goes to stderr.
+    nice -n 10 clang-tidy -p build-tests --quiet --warnings-as-errors='*' "$source" 2>/dev/null ||
+      status=1
+  done
+  return $status
+}
+
+lint_packages() {
+  is_here lintian || return 0
+  local packages
+  mapfile -t packages < <(find . -maxdepth 2 -path './build*.deb')
+  [[ ${#packages[@]} != 0 ]] || { echo "No packages: left out." >&2 && return; }
+  bash tests/style/lintian.sh "${packages[@]}"
+}
+
+failed=()
+for linter in "${linters[@]}"; do
+  echo "== $linter" >&2
+  "lint_$linter" || failed+=("$linter")
+done
+[[ ${#failed[@]} == 0 ]] || { echo "Found something: ${failed[*]}" >&2 && exit 1; }
