@@ -4,11 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/span.h"
+#include "machine/file_part.h"
 
 namespace hrad {
 
@@ -54,6 +57,10 @@ class Comm {
   }
   // Collective. Over all processes, element by element: exact in any order.
   void add_up(Span<uint64_t> values);
+
+  // Not collective: this process's way into a file that is there and that others write too; FILE,
+  // with the path that it is to have, when it can't be opened.
+  virtual std::unique_ptr<FilePart> open_part(const std::string& name, const std::string& path) = 0;
 
   // A number for the node that this process runs on, the same for all that share its memory.
   virtual int node() const { return 0; }

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "machine/file_mpi.h"
+
 namespace hrad {
 namespace {
 
@@ -19,15 +21,15 @@ constexpr int64_t kMostAddedAtOnce = int64_t{1} << 24;     // numbers
 
 [[noreturn]] void fail_mpi(const std::string& message) { throw Error(Status::mpi, message); }
 
-std::string text_of(int code) {
+}  // namespace
+
+std::string text_of_mpi_error(int code) {
   char text[MPI_MAX_ERROR_STRING + 1] = "";
   int length = 0;
   if (MPI_Error_string(code, text, &length) != MPI_SUCCESS || length <= 0)
     return "error " + std::to_string(code);
   return std::string(text, static_cast<size_t>(length));
 }
-
-}  // namespace
 
 void require_mpi() {
   int yes = 0;
@@ -49,7 +51,7 @@ void require_mpi() {
 void CommMpi::check(int code, const char* function) {
   if (code == MPI_SUCCESS) return;
   broken_ = true;
-  fail_mpi(std::string(function) + " failed: " + text_of(code));
+  fail_mpi(std::string(function) + " failed: " + text_of_mpi_error(code));
 }
 
 CommMpi::CommMpi(MPI_Comm host, int64_t most_bytes_at_once)
@@ -255,6 +257,10 @@ void CommMpi::do_add_up(Span<uint64_t> values) {
                         static_cast<int>(std::min(kMostAddedAtOnce, size - first)), MPI_UINT64_T,
                         MPI_SUM, data_),
           "MPI_Allreduce");
+}
+
+std::unique_ptr<FilePart> CommMpi::open_part(const std::string& name, const std::string& path) {
+  return std::make_unique<FilePartMpi>(name, path, most_bytes_at_once_);
 }
 
 // A message of no bytes to everyone. do_settle of the next agreement sees that it has gone.

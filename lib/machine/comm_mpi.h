@@ -13,6 +13,8 @@
 #include <mpi.h>
 
 #include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "machine/comm.h"
@@ -22,6 +24,8 @@ namespace hrad {
 // Error (mpi) unless this thread may call MPI now: a function of MPI that is called too early or
 // too late ends the program.
 void require_mpi();
+
+std::string text_of_mpi_error(int code);
 
 class CommMpi final : public Comm {
  public:
@@ -38,6 +42,7 @@ class CommMpi final : public Comm {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
+  std::unique_ptr<FilePart> open_part(const std::string& name, const std::string& path) override;
   int node() const override { return node_; }               // the lowest rank there
   bool threads_ok() const override { return threads_ok_; }  // from MPI_THREAD_FUNNELED on
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "machine/descriptor.h"
 
 namespace hrad {
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr size_t buffer_bytes = size_t{1} << 18;  // few system calls, little memory
 constexpr int name_attempts = 10000;              // left-over temporaries of as many dead processes
+constexpr mode_t owner_opens = S_IRUSR | S_IWUSR;
 
 std::string folder_of(const std::string& path) {
   const size_t slash = path.rfind('/');
@@ -28,13 +30,12 @@ std::string folder_of(const std::string& path) {
 
 WholeFile::WholeFile(const std::string& path) : path_(path), target_(path) {
   if (path.empty()) fail_here("create", ENOENT);
-  mode_t mode = 0;
   struct stat status;
   if (::stat(path.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) fail_here("create", EISDIR);
     if (!S_ISREG(status.st_mode))
       fail(Status::file, "%s: not a regular file, will not be replaced", path.c_str());
-    mode = status.st_mode & 07777;
+    mode_ = status.st_mode & 07777;
     char* resolved = ::realpath(path.c_str(), nullptr);
     if (!resolved) fail_here("create", errno);
     target_ = resolved;
@@ -44,7 +45,7 @@ WholeFile::WholeFile(const std::string& path) : path_(path), target_(path) {
   }
   buffer_.reserve(buffer_bytes);
   try {
-    create_temporary(mode);
+    create_temporary();
   } catch (...) {
     discard();  // no destructor runs for what was not made
     throw;
@@ -70,14 +71,16 @@ std::string WholeFile::new_name(int attempt) const {
          format(".hrad-%ld-%d.tmp", static_cast<long>(::getpid()), attempt);
 }
 
-// mode: that of the file to be replaced, 0 for a new file (the process's umask decides).
-void WholeFile::create_temporary(mode_t mode) {
+// Of a new file the process's umask decides the mode.
+void WholeFile::create_temporary() {
   for (int attempt = 0; attempt < name_attempts; ++attempt) {
     std::string name = new_name(attempt);
     file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ >= 0) {
       temporary_ = std::move(name);  // without allocation: from here it is removed
-      if (mode != 0 && ::fchmod(file_, mode) != 0) fail_here("keep the mode", errno);
+      // Until it is whole, other processes of the same user may have to open it.
+      if (mode_ != 0 && ::fchmod(file_, mode_ | owner_opens) != 0)
+        fail_here("keep the mode", errno);
       return;
     }
     if (errno != EEXIST && errno != EINTR) break;
@@ -85,48 +88,40 @@ void WholeFile::create_temporary(mode_t mode) {
   fail_here("create", errno);
 }
 
-void WholeFile::write_out(const char* data, size_t size) {
-  while (size > 0) {
-    const ssize_t written = ::write(file_, data, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail_here("write", written < 0 ? errno : EIO);
-    data += written;
-    size -= static_cast<size_t>(written);
-  }
+void WholeFile::write_here(uint64_t offset, const char* data, size_t size) {
+  if (const int error = write_all(file_, offset, data, size)) fail_here("write", error);
 }
 
-void WholeFile::write(const void* data, size_t size) {
-  const char* bytes = static_cast<const char*>(data);
-  if (buffer_.size() + size > buffer_bytes) {
-    write_out(buffer_.data(), buffer_.size());
-    buffer_.clear();
-    if (size >= buffer_bytes) return write_out(bytes, size);
-  }
-  buffer_.insert(buffer_.end(), bytes, bytes + size);
-}
-
-void WholeFile::write_at_start(const void* data, size_t size) {
-  write_out(buffer_.data(), buffer_.size());
+void WholeFile::write_out() {
+  write_here(next_ - buffer_.size(), buffer_.data(), buffer_.size());
   buffer_.clear();
+}
+
+void WholeFile::write_at(uint64_t offset, const void* data, size_t size) {
   const char* bytes = static_cast<const char*>(data);
-  for (size_t done = 0; done < size;) {
-    const ssize_t written = ::pwrite(file_, bytes + done, size - done, static_cast<off_t>(done));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail_here("write", written < 0 ? errno : EIO);
-    done += static_cast<size_t>(written);
+  if (offset != next_ || buffer_.size() + size > buffer_bytes) {
+    write_out();
+    next_ = offset;
   }
+  if (size >= buffer_bytes)
+    write_here(offset, bytes, size);
+  else
+    buffer_.insert(buffer_.end(), bytes, bytes + size);
+  next_ += size;
+}
+
+void WholeFile::synchronise() {
+  write_out();
+  if (const int error = hrad::synchronise(file_)) fail_here("write", error);
 }
 
 void WholeFile::finish() {
   if (file_ < 0) return;
-  write_out(buffer_.data(), buffer_.size());
-  buffer_.clear();
-  // Some file systems have no fsync and say EINVAL; everything else is data that may be lost.
-  if (::fsync(file_) != 0 && errno != EINVAL) fail_here("write", errno);
-  const int closed = ::close(file_);
-  const int close_error = errno;
-  file_ = -1;
-  if (closed != 0 && close_error != EINTR) fail_here("write", close_error);
+  write_out();
+  if ((mode_ & owner_opens) != owner_opens && mode_ != 0 && ::fchmod(file_, mode_) != 0)
+    fail_here("keep the mode", errno);
+  synchronise();
+  if (const int error = close_checked(file_)) fail_here("write", error);
 }
 
 void WholeFile::commit() {

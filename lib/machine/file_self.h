@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,14 @@ class WholeFile {
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  void write(const void* data, size_t size);
+  // Behind what was written last.
+  void write(const void* data, size_t size) { write_at(next_, data, size); }
   void text(const std::string& text) { write(text.data(), text.size()); }
-  // Replaces the first bytes of what was written: for what is known at the end alone.
-  void write_at_start(const void* data, size_t size);
+  // At a place of its own, which may have been written before.
+  void write_at(uint64_t offset, const void* data, size_t size);
+  // Makes what was written so far known to whoever opens the temporary, on whatever machine.
+  void synchronise();
+  const std::string& temporary() const { return temporary_; }
   // Writes everything out and closes the temporary: after it only the rename can fail. For several
   // files that belong together, finish all, then commit all.
   void finish();
@@ -37,8 +42,9 @@ class WholeFile {
  private:
   void discard();  // what is not committed
   [[noreturn]] void fail_here(const char* step, int error) const;
-  void create_temporary(mode_t mode);
-  void write_out(const char* data, size_t size);
+  void create_temporary();
+  void write_out();
+  void write_here(uint64_t offset, const char* data, size_t size);
   std::string new_name(int attempt) const;
   std::string name_of_older(int number) const;
   bool keep_second_name();
@@ -49,7 +55,9 @@ class WholeFile {
   std::string path_, target_, temporary_;  // target: path with links resolved
   std::string second_name_;                // of the old file, for a while
   int file_ = -1;
-  std::vector<char> buffer_;
+  mode_t mode_ = 0;           // of the file to be replaced, 0 for a new one
+  uint64_t next_ = 0;         // behind what was written last
+  std::vector<char> buffer_;  // of that, the bytes that are not written out yet
 };
 
 // The path with every link in it resolved. False when nothing has this name, or nothing can have it

@@ -118,7 +118,7 @@ void CheckpointSink::finish() {
   file_.write(end_mark, mark_bytes);
   const std::string table = table_of(table_);
   const std::string head = head_of(offset_ + mark_bytes, table) + table;
-  file_.write_at_start(head.data(), head.size());
+  file_.write_at(0, head.data(), head.size());
 }
 
 CheckpointSource::CheckpointSource(const std::string& content) : content_(content) {
