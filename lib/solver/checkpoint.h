@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "machine/file_self.h"
+#include "machine/comm.h"
+#include "machine/shared_file.h"
 #include "machine/thread_team.h"
 #include "solver/measure.h"
 #include "solver/params.h"
@@ -20,12 +21,17 @@
 
 namespace hrad {
 
+class AllPoints;
+class Exchange;
+
 // What there is to be written. Nothing is copied.
 struct CheckpointView {
   const Params& params;
   const Scene& scene;
   bool begun;                  // a solve was: the result parameters hold
   const State* state;          // nullptr: nothing is linked
+  const Exchange* exchange;    // where something is linked: whose the links are
+  const AllPoints* points;     // likewise
   const LinkJournal* journal;  // of linking or refinement that is under way; nullptr: none
   int64_t rays, pairs;
   const SolveProgress& progress;
@@ -34,8 +40,9 @@ struct CheckpointView {
   const Inspection& inspection;
 };
 
-// team: to compress with, may be nullptr.
-void write_checkpoint(WholeFile& file, const CheckpointView& view, ThreadTeam* team);
+// Collective: each process gives its links, and rank 0 what is not the same everywhere. team: to
+// compress with, may be nullptr.
+void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, ThreadTeam* team);
 
 // What was read. Every number is in its range, every index within what it indexes.
 struct CheckpointContent {

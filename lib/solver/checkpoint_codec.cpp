@@ -34,6 +34,10 @@ uint32_t checksum(uint32_t before, const char* data, size_t size) {
   return static_cast<uint32_t>(::crc32_z(before, reinterpret_cast<const Bytef*>(data), size));
 }
 
+uint32_t checksum_joined(uint32_t before, uint32_t checksum, uint64_t size) {
+  return static_cast<uint32_t>(::crc32_combine(before, checksum, static_cast<z_off_t>(size)));
+}
+
 std::string compressed(const std::string& bytes) {
   uLongf size = ::compressBound(static_cast<uLong>(bytes.size()));
   std::string result(static_cast<size_t>(size), '\0');

@@ -14,6 +14,8 @@ constexpr uint64_t most_compressed = 64;
 
 // CRC-32 (ISO 3309) of bytes that follow those of `before`; 0 at the beginning.
 uint32_t checksum(uint32_t before, const char* data, size_t size);
+// The same of bytes of which the checksum and the number are known.
+uint32_t checksum_joined(uint32_t before, uint32_t checksum, uint64_t size);
 
 // The bytes as a zlib stream, and zeros behind it as said above.
 std::string compressed(const std::string& bytes);

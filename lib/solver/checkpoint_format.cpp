@@ -1,4 +1,4 @@
-// Writing and checking the frame. Floor 8 (solver).
+// The frame of a file, made and checked. Floor 8 (solver).
 #include "solver/checkpoint_format.h"
 
 #include <algorithm>
@@ -13,12 +13,7 @@ namespace {
 // A byte beyond ASCII, and both kinds of line ends: whatever takes the file for text damages it
 // here.
 constexpr char magic[] = "\x89HRD\r\n\x1a\n";
-constexpr char end_mark[] = "hradend\n";
-constexpr size_t mark_bytes = 8, name_bytes = 8;
-constexpr uint64_t head_bytes = 32, checked_head_bytes = 28, entry_bytes = 40, run_head_bytes = 8;
-constexpr uint64_t table_bytes = section_count * entry_bytes;
-// zlib counts in 32 bits.
-constexpr size_t longest_run = size_t{1} << 31;
+constexpr size_t name_bytes = 8, checked_head_bytes = 28;
 
 struct Kind {
   const char* name;
@@ -60,66 +55,13 @@ std::string table_of(const std::vector<SectionEntry>& entries) {
 
 }  // namespace
 
+std::string head_and_table(uint64_t file_bytes, const std::vector<SectionEntry>& entries) {
+  const std::string table = table_of(entries);
+  return head_of(file_bytes, table) + table;
+}
+
 const char* section_name(Section section) { return kinds[static_cast<size_t>(section)].name; }
 int64_t items_of_run(Section section) { return kinds[static_cast<size_t>(section)].items; }
-
-CheckpointSink::CheckpointSink(WholeFile& file, ThreadTeam* team)
-    : file_(file), team_(team), offset_(head_bytes + table_bytes) {
-  // The true ones follow when all is known.
-  const std::string room(head_bytes + table_bytes, '\0');
-  file_.write(room.data(), room.size());
-}
-
-void CheckpointSink::put(const std::string& bytes) {
-  SectionEntry& entry = table_.back();
-  file_.write(bytes.data(), bytes.size());
-  entry.stored_checksum = checksum(entry.stored_checksum, bytes.data(), bytes.size());
-  entry.stored += bytes.size();
-  offset_ += bytes.size();
-}
-
-void CheckpointSink::write(Section section, int64_t items, const Pack& pack) {
-  table_.emplace_back();
-  table_.back().offset = offset_;
-  const int64_t of_run = items_of_run(section), runs = (items + of_run - 1) / of_run;
-  struct Run {
-    std::string raw, stored;
-  };
-  // A few for each thread, so that little stands in memory.
-  const int64_t at_once = team_ ? 4 * team_->size() : 1;
-  for (int64_t first = 0; first < runs; first += at_once) {
-    std::vector<Run> made(static_cast<size_t>(std::min(at_once, runs - first)));
-    const auto make = [&](int64_t k, int) {
-      PackedBytes bytes;
-      pack((first + k) * of_run, std::min(items, (first + k + 1) * of_run), bytes);
-      if (bytes.bytes().size() >= longest_run)
-        fail(Status::unsupported, "a run of section '%s' has %zu bytes: more than a file can hold",
-             section_name(section), bytes.bytes().size());
-      made[static_cast<size_t>(k)] = {bytes.bytes(), compressed(bytes.bytes())};
-    };
-    if (team_)
-      team_->for_each(static_cast<int64_t>(made.size()), make);
-    else
-      make(0, 0);
-    for (const Run& run : made) {
-      PackedBytes head;
-      head.u32(static_cast<uint32_t>(run.stored.size()));
-      head.u32(static_cast<uint32_t>(run.raw.size()));
-      put(head.bytes());
-      put(run.stored);
-      SectionEntry& entry = table_.back();
-      entry.raw_checksum = checksum(entry.raw_checksum, run.raw.data(), run.raw.size());
-      entry.raw += run.raw.size();
-    }
-  }
-}
-
-void CheckpointSink::finish() {
-  file_.write(end_mark, mark_bytes);
-  const std::string table = table_of(table_);
-  const std::string head = head_of(offset_ + mark_bytes, table) + table;
-  file_.write_at(0, head.data(), head.size());
-}
 
 CheckpointSource::CheckpointSource(const std::string& content) : content_(content) {
   read_table();

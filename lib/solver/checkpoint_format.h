@@ -1,4 +1,5 @@
-// The frame of a checkpoint: head, table of sections, sections made of compressed runs, end mark.
+// The frame of a checkpoint: head, table of sections, sections made of compressed runs, end mark,
+// and reading it; checkpoint_sink.h writes it.
 // The layout is described in hrad-checkpoint(5). Floor 8 (solver).
 #pragma once
 
@@ -7,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "machine/file_self.h"
-#include "machine/thread_team.h"
 #include "solver/packed_bytes.h"
 
 namespace hrad {
@@ -48,26 +47,16 @@ struct SectionEntry {
   uint32_t stored_checksum = 0, raw_checksum = 0;
 };
 
-// Writes one section after the other, a few runs at a time.
-class CheckpointSink {
- public:
-  // team: to compress with; none: the calling thread alone. Both must outlive this.
-  CheckpointSink(WholeFile& file, ThreadTeam* team);
+// What stands before the sections, of a file of so many bytes, and behind them.
+constexpr uint64_t head_bytes = 32, entry_bytes = 40, table_bytes = section_count * entry_bytes;
+std::string head_and_table(uint64_t file_bytes, const std::vector<SectionEntry>& table);
+constexpr char end_mark[] = "hradend\n";
+constexpr size_t mark_bytes = 8;
 
-  // Of items first .. end-1, the bytes of a run. Any thread.
-  using Pack = std::function<void(int64_t first, int64_t end, PackedBytes& bytes)>;
-  void write(Section section, int64_t items, const Pack& pack);
-  // After the last section.
-  void finish();
-
- private:
-  void put(const std::string& bytes);
-
-  WholeFile& file_;
-  ThreadTeam* team_;
-  std::vector<SectionEntry> table_;
-  uint64_t offset_;
-};
+// Of a run: bytes in the file, bytes when expanded, then what is stored.
+constexpr uint64_t run_head_bytes = 8;
+// zlib counts in 32 bits.
+constexpr size_t longest_run = size_t{1} << 31;
 
 // The content of a file whose frame is right: its head, its table, its end, and the checksum of
 // every stored byte. FORMAT otherwise.

@@ -2,7 +2,9 @@
 // at which leaves know their direct light. Floor 8 (solver).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "solver/packed_bytes.h"
@@ -25,11 +27,14 @@ class LightReader {
   std::vector<uint32_t> irradiance_, radiosity_;
 };
 
-// Nodes first .. end-1 of CornerLight::of_leaf.
-void pack_points(const State& state, int64_t first, int64_t end, PackedBytes& bytes);
+// CornerLight::of_leaf of nodes first .. end-1.
+using PointsOf = std::function<std::array<int32_t, 3>(int64_t node)>;
+void pack_points(const Forest& forest, int64_t first, int64_t end, const PointsOf& points_of,
+                 PackedBytes& bytes);
 void unpack_points(PackedReader& bytes, int64_t first, int64_t end, State& state);
 
-void pack_own_points(const CornerLight& direct, int64_t first, int64_t end, PackedBytes& bytes);
+using OwnPointAt = std::function<CornerLight::OwnPoint(int64_t k)>;
+void pack_own_points(int64_t first, int64_t end, const OwnPointAt& point_at, PackedBytes& bytes);
 void unpack_own_points(PackedReader& bytes, int64_t first, int64_t end, CornerLight& direct);
 // FORMAT unless points belong to one surface each, and every leaf with points of its own has them.
 void check_points(const State& state, const FilePlace& place);

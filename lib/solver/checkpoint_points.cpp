@@ -1,5 +1,6 @@
 // Numbers of points: neighbours share the points of their corners, and new ones are numbered in the
 // order of the leaves, so that most numbers are known beforehand. Floor 8 (solver).
+#include <array>
 #include <cstdint>
 #include <unordered_map>
 
@@ -46,12 +47,13 @@ constexpr double largest_place = 16;  // of a point in its leaf: within, but for
 
 }  // namespace
 
-void pack_points(const State& state, int64_t first, int64_t end, PackedBytes& bytes) {
+void pack_points(const Forest& forest, int64_t first, int64_t end, const PointsOf& points_of,
+                 PackedBytes& bytes) {
   PointGuess guess;
   for (int64_t id = first; id < end; ++id) {
-    const Node& node = state.forest.nodes[static_cast<size_t>(id)];
+    const Node& node = forest.nodes[static_cast<size_t>(id)];
     if (!can_have_points(node)) continue;
-    const auto& points = state.direct.of_leaf[static_cast<size_t>(id)];
+    const std::array<int32_t, 3> points = points_of(id);
     bytes.byte(points[0] >= 0);
     for (int c = 0; c < 3 && points[0] >= 0; ++c) {
       const int32_t known = guess.known(node, c);
@@ -89,11 +91,11 @@ void unpack_points(PackedReader& bytes, int64_t first, int64_t end, State& state
   }
 }
 
-void pack_own_points(const CornerLight& direct, int64_t first, int64_t end, PackedBytes& bytes) {
+void pack_own_points(int64_t first, int64_t end, const OwnPointAt& point_at, PackedBytes& bytes) {
   int64_t before = -1;
   std::vector<uint32_t> places;
   for (int64_t k = first; k < end; ++k) {
-    const CornerLight::OwnPoint& point = direct.own[static_cast<size_t>(k)];
+    const CornerLight::OwnPoint point = point_at(k);
     bytes.signed_varint(point.number - before - 1);
     before = point.number;
     places.push_back(bits_of(point.x));

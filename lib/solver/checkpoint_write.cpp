@@ -1,9 +1,9 @@
 // Writing a checkpoint, section by section. Floor 8 (solver).
 #include "solver/checkpoint.h"
-#include "solver/checkpoint_format.h"
 #include "solver/checkpoint_light.h"
-#include "solver/checkpoint_runs.h"
+#include "solver/checkpoint_links.h"
 #include "solver/checkpoint_scene.h"
+#include "solver/checkpoint_sink.h"
 #include "solver/checkpoint_sizes.h"
 #include "solver/checkpoint_tree.h"
 
@@ -43,56 +43,37 @@ void write_hierarchy(CheckpointSink& sink, const State& state, const CheckpointS
              [&](int64_t, int64_t, PackedBytes& bytes) { pack_clusters(forest, bytes); });
 }
 
-void write_links(CheckpointSink& sink, const State& state, const CheckpointSizes& sizes) {
-  const CornerLight& direct = state.direct;
-  const auto runs = [&](Section section, int64_t receivers, const RunOf& run_of) {
-    sink.write(section, receivers, [&](int64_t first, int64_t end, PackedBytes& bytes) {
-      pack_runs(first, end, run_of, bytes);
-    });
-  };
-  runs(Section::links, sizes.nodes(),
-       [&](int64_t k) { return state.links[static_cast<size_t>(k)].links(); });
-  sink.write(Section::cells, sizes.cells, [&](int64_t first, int64_t end, PackedBytes& bytes) {
-    pack_cells(state.cells, first, end, bytes);
+// What linking that is under way has done so far, each process its own steps.
+void write_steps(CheckpointSink& sink, const CheckpointView& view) {
+  const int64_t own = view.journal ? static_cast<int64_t>(view.journal->steps().size()) : 0;
+  sink.write_own(Section::steps, own, [&](int64_t first, int64_t, PackedBytes& bytes) {
+    pack_step(view.journal->steps()[static_cast<size_t>(first)], bytes);
   });
-  runs(Section::mean_light, sizes.receivers_of_means,
-       [&](int64_t k) { return direct.mean[static_cast<size_t>(k)].links(); });
-  sink.write(Section::points, sizes.leaves_of_points,
-             [&](int64_t first, int64_t end, PackedBytes& bytes) {
-               pack_points(state, first, end, bytes);
-             });
-  runs(Section::point_links, sizes.points, [&](int64_t k) {
-    const uint32_t first = direct.first[static_cast<size_t>(k)];
-    return Span<const Link>(direct.links.data() + first,
-                            direct.first[static_cast<size_t>(k) + 1] - first);
-  });
-  sink.write(Section::own_points, sizes.own_points,
-             [&](int64_t first, int64_t end, PackedBytes& bytes) {
-               pack_own_points(direct, first, end, bytes);
-             });
 }
 
 }  // namespace
 
-void write_checkpoint(WholeFile& file, const CheckpointView& view, ThreadTeam* team) {
-  const CheckpointSizes sizes = sizes_of(view);
+void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, ThreadTeam* team) {
+  CheckpointSizes sizes = sizes_of(view);
+  add_up_links(view, sizes);
   // Nothing of a state without links: an empty one stands for it.
   const Scene no_scene;
   const State none(no_scene);
   const State& state = view.state ? *view.state : none;
-  CheckpointSink sink(file, team);
+  CheckpointSink sink(comm, file, team);
   write_small(sink, view, sizes);
   write_scene(sink, view.scene, sizes);
   sink.write(Section::progress, 1,
              [&](int64_t, int64_t, PackedBytes& bytes) { pack_progress(view, bytes); });
   write_hierarchy(sink, state, sizes);
-  write_links(sink, state, sizes);
+  if (view.state)
+    write_links(sink, view, sizes);
+  else
+    write_no_links(sink);
   sink.write(Section::light, sizes.nodes(), [&](int64_t first, int64_t end, PackedBytes& bytes) {
     pack_light(state, first, end, bytes);
   });
-  sink.write(Section::steps, sizes.steps, [&](int64_t first, int64_t, PackedBytes& bytes) {
-    pack_step(view.journal->steps()[static_cast<size_t>(first)], bytes);
-  });
+  write_steps(sink, view);
   sink.finish();
 }
 

@@ -4,9 +4,11 @@
 
 #include "base/error.h"
 #include "machine/file_self.h"
-#include "solver/all_links.h"
+#include "machine/shared_file.h"
+#include "solver/all_points.h"
 #include "solver/checkpoint.h"
 #include "solver/checkpoint_scene.h"
+#include "solver/own_links.h"
 #include "solver/solution.h"
 #include "stages/state_memory.h"
 
@@ -60,22 +62,18 @@ void Solver::write_checkpoint(const std::string& path) {
     fail(Status::state, "%s: nothing is linked yet that a checkpoint could keep", path.c_str());
   int64_t pairs = s ? s->state.pairs : 0;
   add_up(*comm_, rays, pairs);
-  // Rank 0 alone writes, and the others know how that went before they go on.
-  std::unique_ptr<AllLinks> all;
-  if (linked) all = std::make_unique<AllLinks>(solution_->state, *s->exchange);
-  if (comm_->rank() != 0) {
-    comm_->all_go_on();
-    return;
-  }
   std::unique_ptr<FileLock> lock;
-  if (!checkpoint_lock_ || !checkpoint_lock_->is_of(path)) lock = std::make_unique<FileLock>(path);
-  WholeFile file(path);
+  if (comm_->rank() == 0 && !(checkpoint_lock_ && checkpoint_lock_->is_of(path)))
+    lock = std::make_unique<FileLock>(path);
+  SharedFile file(*comm_, path);
+  std::unique_ptr<AllPoints> points;
+  if (linked) points = std::make_unique<AllPoints>(solution_->state, *s->exchange);
   hrad::write_checkpoint(
-      file,
-      {params_, scene_, begun_, linked ? &s->state : nullptr, s ? &s->state.journal : nullptr, rays,
-       pairs, *progress, stats_, s ? s->balance : no_balance, s ? s->inspection : no_inspection},
+      *comm_, file,
+      {params_, scene_, begun_, linked ? &s->state : nullptr, linked ? s->exchange.get() : nullptr,
+       points.get(), s && comm_->rank() == 0 ? &s->state.journal : nullptr, rays, pairs, *progress,
+       stats_, s ? s->balance : no_balance, s ? s->inspection : no_inspection},
       s && !solving_ ? s->team.get() : nullptr);
-  comm_->all_go_on();
   file.commit_keeping(static_cast<int>(params_.checkpoint_keep));
   stats_.seconds_output +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
