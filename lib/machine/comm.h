@@ -58,9 +58,12 @@ class Comm {
   // Collective. Over all processes, element by element: exact in any order.
   void add_up(Span<uint64_t> values);
 
-  // Not collective: this process's way into a file that is there and that others write too; FILE,
-  // with the path that it is to have, when it can't be opened.
-  virtual std::unique_ptr<FilePart> open_part(const std::string& name, const std::string& path) = 0;
+  // Not collective: a way of these processes' own into a file that is there, whose path will be
+  // another one; FILE when it can't be opened. nullptr: there is no way but the system's.
+  virtual std::unique_ptr<FilePart> open_part(const std::string& /*name*/,
+                                              const std::string& /*path*/) {
+    return nullptr;
+  }
 
   // A number for the node that this process runs on, the same for all that share its memory.
   virtual int node() const { return 0; }

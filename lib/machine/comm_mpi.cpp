@@ -260,6 +260,7 @@ void CommMpi::do_add_up(Span<uint64_t> values) {
 }
 
 std::unique_ptr<FilePart> CommMpi::open_part(const std::string& name, const std::string& path) {
+  if (!is_name_for_mpi(name)) return nullptr;
   return std::make_unique<FilePartMpi>(name, path, most_bytes_at_once_);
 }
 

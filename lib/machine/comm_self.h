@@ -1,12 +1,9 @@
 // One process alone. Floor 2 (machine).
 #pragma once
 
-#include <memory>
-#include <string>
 #include <utility>
 
 #include "machine/comm.h"
-#include "machine/file_part_self.h"
 
 namespace hrad {
 
@@ -14,9 +11,6 @@ class CommSelf final : public Comm {
  public:
   int rank() const override { return 0; }
   int size() const override { return 1; }
-  std::unique_ptr<FilePart> open_part(const std::string& name, const std::string& path) override {
-    return std::make_unique<FilePartSelf>(name, path);
-  }
 
  protected:
   std::vector<Word> do_tell(const Word& mine) override { return {mine}; }

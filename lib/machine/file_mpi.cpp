@@ -34,7 +34,13 @@ class OpeningReturns {
   bool known_ = false;
 };
 
+constexpr size_t kLongestName = 200;
+
 }  // namespace
+
+bool is_name_for_mpi(const std::string& name) {
+  return name.size() <= kLongestName && name.find(':') == std::string::npos;
+}
 
 FilePartMpi::FilePartMpi(const std::string& name, std::string path, int64_t most_bytes_at_once)
     : path_(std::move(path)), most_bytes_at_once_(most_bytes_at_once) {

@@ -9,6 +9,10 @@
 
 namespace hrad {
 
+// Whether every MPI takes this for the name of a file: Open MPI 4 ends the program where it is
+// longer than the 244 bytes that it has room for, and ROMIO drops what stands before a colon.
+bool is_name_for_mpi(const std::string& name);
+
 class FilePartMpi final : public FilePart {
  public:
   // name: of the file, which is there; path: for messages. No call writes more bytes than stated.

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "machine/file_part_self.h"
 #include "machine/sharing.h"
 
 namespace hrad {
@@ -54,6 +55,7 @@ void SharedFile::open_part() {
   take_list(taker, path_);
   try {
     part_ = comm_.open_part(name, path_);
+    if (!part_) part_ = std::make_unique<FilePartSelf>(name, path_);
     Mark found;
     if (!part_->read_start(reinterpret_cast<char*>(&found), sizeof found) ||
         std::memcmp(&found, &mark, sizeof mark) != 0)
@@ -63,6 +65,7 @@ void SharedFile::open_part() {
     fail(Status::file, "%s (on rank %d: all ranks write this file, in a folder that all can reach)",
          error.what(), comm_.rank());
   }
+  comm_.all_go_on();  // before anybody writes over the mark
 }
 
 void SharedFile::write_at(uint64_t offset, const void* data, size_t size) {

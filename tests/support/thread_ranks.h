@@ -8,13 +8,11 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "machine/comm.h"
-#include "machine/file_part_self.h"
 
 namespace hrad_test {
 
@@ -52,10 +50,6 @@ class CommThreads : public hrad::Comm {
   CommThreads(Hub& hub, int rank) : hub_(hub), rank_(rank) {}
   int rank() const override { return rank_; }
   int size() const override { return hub_.size; }
-  std::unique_ptr<hrad::FilePart> open_part(const std::string& name,
-                                            const std::string& path) override {
-    return std::make_unique<hrad::FilePartSelf>(name, path);
-  }
 
  protected:
   using Bytes = hrad::Bytes;
