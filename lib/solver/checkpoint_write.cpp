@@ -43,19 +43,18 @@ void write_hierarchy(CheckpointSink& sink, const State& state, const CheckpointS
              [&](int64_t, int64_t, PackedBytes& bytes) { pack_clusters(forest, bytes); });
 }
 
-// What linking that is under way has done so far, each process its own steps.
 void write_steps(CheckpointSink& sink, const CheckpointView& view) {
-  const int64_t own = view.journal ? static_cast<int64_t>(view.journal->steps().size()) : 0;
-  sink.write_own(Section::steps, own, [&](int64_t first, int64_t, PackedBytes& bytes) {
-    pack_step(view.journal->steps()[static_cast<size_t>(first)], bytes);
-  });
+  sink.write_own(Section::steps, static_cast<int64_t>(view.steps.size()),
+                 [&](int64_t first, int64_t, PackedBytes& bytes) {
+                   pack_step(view.steps[static_cast<size_t>(first)], bytes);
+                 });
 }
 
 }  // namespace
 
 void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, ThreadTeam* team) {
   CheckpointSizes sizes = sizes_of(view);
-  add_up_links(view, sizes);
+  add_up(comm, view, sizes);
   // Nothing of a state without links: an empty one stands for it.
   const Scene no_scene;
   const State none(no_scene);
@@ -64,7 +63,7 @@ void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, 
   write_small(sink, view, sizes);
   write_scene(sink, view.scene, sizes);
   sink.write(Section::progress, 1,
-             [&](int64_t, int64_t, PackedBytes& bytes) { pack_progress(view, bytes); });
+             [&](int64_t, int64_t, PackedBytes& bytes) { pack_progress(view, sizes, bytes); });
   write_hierarchy(sink, state, sizes);
   if (view.state)
     write_links(sink, view, sizes);

@@ -87,6 +87,7 @@ LinkJournal LinkJournal::restored(uint64_t key, int64_t rays_before, std::vector
   journal.key_ = key;
   journal.rays_before = rays_before;
   for (LinkStep& step : steps) journal.push(std::move(step));
+  journal.restored_steps_ = journal.steps_.size();
   return journal;
 }
 

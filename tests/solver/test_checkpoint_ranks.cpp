@@ -1,8 +1,11 @@
 // Checkpoints of several ranks: the bytes are those of one rank, and any number of ranks reads them
 // and goes on to the same end.
+#include <algorithm>
+#include <map>
 #include <vector>
 
 #include "api/guard.h"
+#include "solver/checkpoint.h"
 #include "solver/checkpoint_files.h"
 #include "support/failing_ranks.h"
 
@@ -206,6 +209,47 @@ void every_step_fails_once() {
   CHECK(failures > 40);
 }
 
+// A stage that is under way: the file has what every rank has done of it, once, however often it
+// is read and written again.
+void finished_tasks_of_all_ranks() {
+  const Folder folder("ranks");
+  constexpr int ranks = 3;
+  for (const SolveCase& c : {SolveCase{"furnished-room", "rows", "error", 0.1},
+                             SolveCase{"furnished-room", "clusters", "error", 0.5}}) {
+    on_solvers(ranks, c, [&](Solver& solver) {
+      solver.set_int("resumable", 1);
+      if (solver.comm().rank() == 0)
+        solver.set_progress([](const hrad::Progress& progress) {
+          return progress.stage != std::string("linking") || progress.fraction < 0.05;
+        });
+      solver.make_scene(c.scene);
+      CHECK(solver.solve() == hrad::Status::stopped);
+      solver.write_checkpoint(folder.file("a.hrad"));
+    });
+    const std::string bytes = bytes_of_file(folder.file("a.hrad"));
+    const auto content = hrad::read_checkpoint(bytes, 0);
+    CHECK(!content->state && content->key_of_steps != 0);
+    std::map<uint32_t, int> steps_of_pass;
+    int most = 0;
+    for (const hrad::LinkStep& step : content->steps)
+      most = std::max(most, ++steps_of_pass[step.pass]);
+    CHECK(most >= ranks);
+    uint64_t hash = 0;
+    for (int readers : {1, 2, 4})
+      on_solvers(readers, c, [&](Solver& solver) {
+        solver.read_checkpoint(folder.file("a.hrad"));
+        solver.write_checkpoint(folder.file("b.hrad"));
+        // Others don't wait until it has its name.
+        if (solver.comm().rank() == 0) CHECK(bytes_of_file(folder.file("b.hrad")) == bytes);
+        solver.solve();
+        const uint64_t own = solver.state_hash();
+        if (solver.comm().rank() > 0) return;
+        if (readers == 1) hash = own;
+        CHECK(own == hash);
+      });
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -215,6 +259,7 @@ int main() {
       HRAD_TEST(solving_goes_on),
       HRAD_TEST(a_folder_that_is_not_there),
       HRAD_TEST(every_step_fails_once),
+      HRAD_TEST(finished_tasks_of_all_ranks),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
