@@ -446,7 +446,7 @@ HRAD_API hrad_status hrad_power_balance(const hrad_solver* solver, double* emitt
 
 /* A checkpoint (.hrad) holds scene, result parameters, mesh, links, light, measurements and how far
  * the solve has come; hrad-checkpoint(5) describes the bytes. It does not depend on the number of
- * threads, nor on time or machine. */
+ * threads or ranks, nor on time or machine. */
 
 /* [C] Writes a checkpoint at any time between other calls (of a solver with a scene alone, after a
  * solve, or after one that was stopped) and from the progress callback of a solve, which then goes
@@ -455,8 +455,10 @@ HRAD_API hrad_status hrad_power_balance(const hrad_solver* solver, double* emitt
  * at the most, and with resumable = 0 all of what was under way. The file appears whole under its
  * name or not at all; what was there before stays as PATH.prev, and older ones as PATH.prev2 and so
  * on, as the parameter checkpoint_keep says (0: none). While it is written PATH.lock keeps other
- * writers away. Errors: FILE (what failed; the old file is whole), also when another process holds
- * the lock; STATE from the progress callback while there is nothing yet to go on from, or of
+ * writers away. Several ranks pack and write a part each, through MPI-IO into a folder that all of
+ * them must share (rank 0's path counts); the bytes are those of one rank, and no rank holds the
+ * links of all. Errors: FILE (what failed, on whichever rank; the old file is whole), also when
+ * another process holds the lock; STATE from the progress callback while there is nothing yet to go on from, or of
  * several ranks, which must write together: stop the solve there, write on all of them, and solve
  * on. */
 HRAD_API hrad_status hrad_write_checkpoint(hrad_solver* solver, const char* path);

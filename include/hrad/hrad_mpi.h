@@ -22,7 +22,8 @@
  *
  * MPI belongs to the program: the library calls neither MPI_Init nor MPI_Finalize nor MPI_Abort, and
  * the program's communicator, its messages and its error handler stay as they are. What MPI reports
- * as failed on a duplicate is HRAD_ERROR_MPI.
+ * as failed on a duplicate is HRAD_ERROR_MPI, on a file HRAD_ERROR_FILE: every rank opens the
+ * checkpoint that all write on MPI_COMM_SELF.
  *
  * THREADS. A solver is used on one thread, which must be allowed to call MPI: below
  * MPI_THREAD_SERIALIZED that is the thread of MPI_Init_thread. The library's own threads never call

@@ -18,12 +18,12 @@ namespace {
 class OpeningReturns {
  public:
   OpeningReturns() {
-    known_ = MPI_File_get_errhandler(MPI_FILE_NULL, &before_) == MPI_SUCCESS;
-    MPI_File_set_errhandler(MPI_FILE_NULL, MPI_ERRORS_RETURN);
+    MPI_File_get_errhandler(MPI_FILE_NULL, &before_);
+    is_usual_ = before_ == MPI_ERRORS_RETURN;
+    if (!is_usual_) MPI_File_set_errhandler(MPI_FILE_NULL, MPI_ERRORS_RETURN);
   }
   ~OpeningReturns() {
-    if (!known_) return;
-    MPI_File_set_errhandler(MPI_FILE_NULL, before_);
+    if (!is_usual_) MPI_File_set_errhandler(MPI_FILE_NULL, before_);
     MPI_Errhandler_free(&before_);
   }
   OpeningReturns(const OpeningReturns&) = delete;
@@ -31,7 +31,7 @@ class OpeningReturns {
 
  private:
   MPI_Errhandler before_ = MPI_ERRHANDLER_NULL;
-  bool known_ = false;
+  bool is_usual_ = false;
 };
 
 constexpr size_t kLongestName = 200;

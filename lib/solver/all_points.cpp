@@ -6,11 +6,11 @@
 namespace hrad {
 namespace {
 
-// What is told of an element.
+// What is told of an element, in a byte.
 struct Told {
-  uint8_t light_points = 0;  // Node::light_points
-  uint8_t new_points = 0;    // that no leaf before it names
-  uint8_t are_own = 0;       // these belong to it alone
+  uint8_t light_points : 2;  // Node::light_points
+  uint8_t new_points : 2;    // points that no leaf before it names
+  uint8_t are_own : 1;       // these belong to it alone
 };
 
 std::vector<Told> own_part(const State& state, const Exchange& exchange) {
@@ -19,12 +19,12 @@ std::vector<Told> own_part(const State& state, const Exchange& exchange) {
   for (size_t k = 0; k < told.size(); ++k) {
     const Node& node = state.forest.nodes[k];
     if (!exchange.mine(state.forest, static_cast<NodeId>(k))) continue;
-    told[k].light_points = node.light_points;
+    told[k].light_points = node.light_points & 3;
     if (k >= state.direct.of_leaf.size() || state.direct.of_leaf[k][0] < 0) continue;
     for (int32_t point : state.direct.of_leaf[k])
       if (point == known) {
         ++known;
-        ++told[k].new_points;
+        told[k].new_points = (told[k].new_points + 1) & 3;
       }
     told[k].are_own = own_points(state, static_cast<NodeId>(k)) != nullptr;
   }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/span.h"
 #include "machine/comm.h"
 #include "machine/shared_file.h"
 #include "machine/thread_team.h"
@@ -32,7 +33,8 @@ struct CheckpointView {
   const State* state;          // nullptr: nothing is linked
   const Exchange* exchange;    // where something is linked: whose the links are
   const AllPoints* points;     // likewise
-  const LinkJournal* journal;  // of linking or refinement that is under way; nullptr: none
+  Span<const LinkStep> steps;  // of linking or refinement that is under way: this process's own
+  uint64_t key_of_steps;
   int64_t rays, pairs;
   const SolveProgress& progress;
   const Stats& stats;
@@ -40,8 +42,8 @@ struct CheckpointView {
   const Inspection& inspection;
 };
 
-// Collective: each process gives its links, and rank 0 what is not the same everywhere. team: to
-// compress with, may be nullptr.
+// Collective: each process gives its links and steps, and rank 0 what is not the same everywhere.
+// team: to compress with, may be nullptr.
 void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, ThreadTeam* team);
 
 // What was read. Every number is in its range, every index within what it indexes.

@@ -95,22 +95,28 @@ class LinkWriter {
 
 }  // namespace
 
-void add_up_links(const CheckpointView& view, CheckpointSizes& sizes) {
-  if (!view.state || view.exchange->alone()) return;
-  const State& state = *view.state;
-  const CornerLight& direct = state.direct;
-  uint64_t sums[] = {0, 0, direct.links.size()};
-  for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
-    if (!view.exchange->mine(state.forest, static_cast<NodeId>(k))) continue;
-    sums[0] += static_cast<uint64_t>(state.links[k].count());
-    if (k < direct.mean.size()) sums[1] += static_cast<uint64_t>(direct.mean[k].count());
+void add_up(Comm& comm, const CheckpointView& view, CheckpointSizes& sizes) {
+  if (comm.alone()) return;
+  uint64_t links = 0, mean_links = 0;
+  if (view.state) {
+    const State& state = *view.state;
+    const LinkTable& mean = state.direct.mean;
+    for (size_t k = 0; k < state.links.size(); ++k) {
+      // Every process may know those of a cluster.
+      if (!view.exchange->mine(state.forest, static_cast<NodeId>(k))) continue;
+      links += static_cast<uint64_t>(state.links[k].count());
+      if (k < mean.size()) mean_links += static_cast<uint64_t>(mean[k].count());
+    }
+    sizes.points = view.points->points().count();
+    sizes.own_points = view.points->own_points().count();
   }
-  view.exchange->comm().add_up({sums, 3});
+  uint64_t sums[] = {links, mean_links, static_cast<uint64_t>(sizes.point_links),
+                     static_cast<uint64_t>(sizes.steps)};
+  comm.add_up({sums, 4});
   sizes.links = static_cast<int64_t>(sums[0]);
   sizes.mean_links = static_cast<int64_t>(sums[1]);
   sizes.point_links = static_cast<int64_t>(sums[2]);
-  sizes.points = view.points->points().count();
-  sizes.own_points = view.points->own_points().count();
+  sizes.steps = static_cast<int64_t>(sums[3]);
 }
 
 void write_links(CheckpointSink& sink, const CheckpointView& view, const CheckpointSizes& sizes) {

@@ -9,7 +9,7 @@
 namespace hrad {
 
 // Collective, as all that follows. From what this process has to what all have.
-void add_up_links(const CheckpointView& view, CheckpointSizes& sizes);
+void add_up(Comm& comm, const CheckpointView& view, CheckpointSizes& sizes);
 
 // The sections from `links` on up to `own_points`.
 void write_links(CheckpointSink& sink, const CheckpointView& view, const CheckpointSizes& sizes);

@@ -53,6 +53,7 @@ CheckpointSizes sizes_of(const CheckpointView& view) {
   s.vertices = static_cast<int64_t>(scene.vertices.size());
   s.materials = static_cast<int64_t>(scene.materials.size());
   s.patches = scene.patch_count();
+  s.steps = static_cast<int64_t>(view.steps.size());
   if (!state) return s;
   const auto nodes = state->nodes_in_order >= 0 ? state->nodes_in_order
                                                 : static_cast<int64_t>(state->forest.nodes.size());
@@ -170,7 +171,7 @@ void unpack_params(PackedReader& bytes, Params& params) {
   }
 }
 
-void pack_progress(const CheckpointView& view, PackedBytes& bytes) {
+void pack_progress(const CheckpointView& view, const CheckpointSizes& sizes, PackedBytes& bytes) {
   const SolveProgress& p = view.progress;
   for (bool flag : {view.begun, p.linked, p.sweeping, p.from_emission, p.converged, p.finished,
                     p.measuring_due, view.stats.converged})
@@ -182,7 +183,7 @@ void pack_progress(const CheckpointView& view, PackedBytes& bytes) {
     bytes.varint(static_cast<uint64_t>(count));
   bytes.u64(p.light_hash);
   bytes.u64(p.mesh_hash);
-  bytes.u64(view.journal ? view.journal->key() : 0);
+  bytes.u64(sizes.steps > 0 ? view.key_of_steps : 0);
   for (double number :
        {p.scale, p.accuracy_reached, p.convergence.tolerance(), view.stats.error_estimate,
         view.stats.error_standard_error, view.balance.back_share, view.inspection.back_share,

@@ -18,6 +18,7 @@ struct CheckpointSizes {
   int64_t nodes() const { return surfaces + clusters + 4 * families; }
 };
 
+// Of what this process has.
 CheckpointSizes sizes_of(const CheckpointView& view);
 void pack_sizes(const CheckpointSizes& sizes, PackedBytes& bytes);
 // FORMAT when a section is too short for what it is to hold.
@@ -29,7 +30,7 @@ std::string origin_text(const Params& params);
 void pack_params(const Params& params, PackedBytes& bytes);
 void unpack_params(PackedReader& bytes, Params& params);
 
-void pack_progress(const CheckpointView& view, PackedBytes& bytes);
+void pack_progress(const CheckpointView& view, const CheckpointSizes& sizes, PackedBytes& bytes);
 void unpack_progress(PackedReader& bytes, CheckpointContent& content);
 
 void pack_step(const LinkStep& step, PackedBytes& bytes);

@@ -43,24 +43,18 @@ void write_hierarchy(CheckpointSink& sink, const State& state, const CheckpointS
              [&](int64_t, int64_t, PackedBytes& bytes) { pack_clusters(forest, bytes); });
 }
 
-// What a stage that is under way has done so far: each process its own steps, and the first one
-// those that all have.
-Span<const LinkStep> own_steps(const CheckpointView& view, int rank) {
-  if (!view.journal) return {};
-  const std::vector<LinkStep>& steps = view.journal->steps();
-  const size_t first = rank == 0 ? 0 : view.journal->steps_of_all();
-  return {steps.data() + first, steps.size() - first};
+void write_steps(CheckpointSink& sink, const CheckpointView& view) {
+  sink.write_own(Section::steps, static_cast<int64_t>(view.steps.size()),
+                 [&](int64_t first, int64_t, PackedBytes& bytes) {
+                   pack_step(view.steps[static_cast<size_t>(first)], bytes);
+                 });
 }
 
 }  // namespace
 
 void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, ThreadTeam* team) {
   CheckpointSizes sizes = sizes_of(view);
-  add_up_links(view, sizes);
-  const Span<const LinkStep> steps = own_steps(view, comm.rank());
-  uint64_t all_steps = steps.size();
-  comm.add_up({&all_steps, 1});
-  sizes.steps = static_cast<int64_t>(all_steps);
+  add_up(comm, view, sizes);
   // Nothing of a state without links: an empty one stands for it.
   const Scene no_scene;
   const State none(no_scene);
@@ -69,7 +63,7 @@ void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, 
   write_small(sink, view, sizes);
   write_scene(sink, view.scene, sizes);
   sink.write(Section::progress, 1,
-             [&](int64_t, int64_t, PackedBytes& bytes) { pack_progress(view, bytes); });
+             [&](int64_t, int64_t, PackedBytes& bytes) { pack_progress(view, sizes, bytes); });
   write_hierarchy(sink, state, sizes);
   if (view.state)
     write_links(sink, view, sizes);
@@ -78,10 +72,7 @@ void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, 
   sink.write(Section::light, sizes.nodes(), [&](int64_t first, int64_t end, PackedBytes& bytes) {
     pack_light(state, first, end, bytes);
   });
-  sink.write_own(Section::steps, static_cast<int64_t>(steps.size()),
-                 [&](int64_t first, int64_t, PackedBytes& bytes) {
-                   pack_step(steps[static_cast<size_t>(first)], bytes);
-                 });
+  write_steps(sink, view);
   sink.finish();
 }
 

@@ -35,6 +35,13 @@ void add_up(Comm& comm, int64_t& rays, int64_t& pairs) {
   pairs = static_cast<int64_t>(sums[1]);
 }
 
+// What this process is to write: rank 0 what all have from a file, each what it has done itself.
+Span<const LinkStep> own_steps(const LinkJournal& journal, const Comm& comm) {
+  const Span<const LinkStep> all = journal.steps();
+  const size_t first = comm.rank() == 0 ? 0 : journal.restored_steps();
+  return all.subspan(first, all.size() - first);
+}
+
 }  // namespace
 
 void Solver::lock_checkpoint(const std::string& path) {
@@ -51,14 +58,16 @@ void Solver::write_checkpoint(const std::string& path) {
          "solve there, write, and solve on",
          path.c_str());
   const SolveProgress no_progress;
+  const LinkJournal no_journal;
   const PowerBalance no_balance;
   const Inspection no_inspection;
   const Solution* s = solution_.get();
   const SolveProgress* progress = s ? static_cast<const SolveProgress*>(s) : &no_progress;
+  const LinkJournal& journal = s ? s->state.journal : no_journal;
   const bool linked = s && s->linked;
   // What linking that is under way has counted it will count again.
-  int64_t rays = linked ? s->state.rays : s ? s->state.journal.rays_before : 0;
-  if (solving_ && !linked && s->state.journal.empty())
+  int64_t rays = linked ? s->state.rays : journal.rays_before;
+  if (solving_ && !linked && journal.empty())
     fail(Status::state, "%s: nothing is linked yet that a checkpoint could keep", path.c_str());
   int64_t pairs = s ? s->state.pairs : 0;
   add_up(*comm_, rays, pairs);
@@ -71,7 +80,7 @@ void Solver::write_checkpoint(const std::string& path) {
   hrad::write_checkpoint(
       *comm_, file,
       {params_, scene_, begun_, linked ? &s->state : nullptr, linked ? s->exchange.get() : nullptr,
-       points.get(), s ? &s->state.journal : nullptr, rays, pairs, *progress, stats_,
+       points.get(), own_steps(journal, *comm_), journal.key(), rays, pairs, *progress, stats_,
        s ? s->balance : no_balance, s ? s->inspection : no_inspection},
       s && !solving_ ? s->team.get() : nullptr);
   file.commit_keeping(static_cast<int>(params_.checkpoint_keep));
@@ -91,7 +100,7 @@ void Solver::take_over(CheckpointContent& content) {
   state.rays = comm_->rank() == 0 ? content.rays : 0;
   state.pairs = comm_->rank() == 0 ? content.pairs : 0;
   state.journal =
-      LinkJournal::restored(content.key_of_steps, content.rays, std::move(content.steps));
+      LinkJournal::restored(content.key_of_steps, state.rays, std::move(content.steps));
   if (!content.state) return;
   const int64_t before = bytes_of(state);
   state.forest = std::move(content.state->forest);

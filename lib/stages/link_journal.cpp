@@ -86,8 +86,8 @@ LinkJournal LinkJournal::restored(uint64_t key, int64_t rays_before, std::vector
   LinkJournal journal;
   journal.key_ = key;
   journal.rays_before = rays_before;
-  journal.steps_of_all_ = steps.size();
   for (LinkStep& step : steps) journal.push(std::move(step));
+  journal.restored_steps_ = journal.steps_.size();
   return journal;
 }
 

@@ -92,8 +92,8 @@ class LinkJournal {
   // To be kept in a file.
   uint64_t key() const { return key_; }
   const std::vector<LinkStep>& steps() const { return steps_; }
-  // So many of them, the first ones, came from a file, and all processes have them.
-  size_t steps_of_all() const { return steps_of_all_; }
+  // Of these so many, the first ones, come from a file, and all processes have them.
+  size_t restored_steps() const { return restored_steps_; }
   static LinkJournal restored(uint64_t key, int64_t rays_before, std::vector<LinkStep> steps);
 
  private:
@@ -111,7 +111,7 @@ class LinkJournal {
   uint64_t key_ = 0;
   uint32_t pass_ = 0;
   std::vector<LinkStep> steps_;
-  size_t steps_of_all_ = 0;
+  size_t restored_steps_ = 0;
   std::vector<Entry> known_;  // of this pass, by name
   int64_t bytes_ = 0;
 };
