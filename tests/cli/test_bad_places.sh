@@ -41,7 +41,7 @@ end_with() { # CODE TEXT
   tail -n 2 err | grep -q -e "$2" || complain "$ran: nothing said of '$2': $(tail -n 3 err)"
 }
 
-if [ $HRAD_OWN_MOUNTS = yes ] && mount -t tmpfs -o size=64k none place 2>/dev/null; then
+if [ "$HRAD_OWN_MOUNTS" = yes ] && mount -t tmpfs -o size=64k none place 2>/dev/null; then
   # The new file has no room beside the old one.
   cp old.hrad place/c.hrad
   for option in --checkpoint -o; do
