@@ -52,7 +52,7 @@ void install() {
   // It must not end a solve where there is no checkpoint to write.
   action.sa_handler = note_checkpoint;
   ::sigaction(SIGUSR2, &action, nullptr);
-  // What would grow beyond the limit on files is then refused like what a full disk has no room for.
+  // Writing beyond the limit on file sizes then fails with a reason, as on a full disk.
   action.sa_handler = SIG_IGN;
   ::sigaction(SIGXFSZ, &action, nullptr);
 }
