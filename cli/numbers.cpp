@@ -79,7 +79,7 @@ std::string seconds_text(double seconds) {
     std::snprintf(buffer, sizeof buffer, "%.2f s", seconds);
     return buffer;
   }
-  const auto whole = static_cast<long long>(seconds + 0.5);
+  const long long whole = std::llround(seconds);
   if (whole < 3600)
     std::snprintf(buffer, sizeof buffer, "%lld:%02lld min", whole / 60, whole % 60);
   else

@@ -111,8 +111,11 @@ add_package(fortran libhrad-fortran-dev libdevel "libhrad-dev ${same}, ${fortran
   "This package has the module hrad for programs in Fortran 2008, and its sources
 for compilers other than gfortran.")
 set(CPACK_DEBIAN_FORTRAN_PACKAGE_SUGGESTS libhrad-mpi-dev)
-add_package(python python3-hrad python "python3, python3-numpy" "${what}, Python module"
+add_package(python python3-hrad python "python3, python3-numpy, ${linked}" "${what}, Python module"
   "This package has the module hrad for Python 3.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-mpi4py)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/pkgconfig/debian/python/postinst
+    ${PROJECT_SOURCE_DIR}/pkgconfig/debian/python/prerm)
 add_package(documentation hrad-doc doc "" "${what}, documents and examples"
   "This package has the README and programs in C, C++ and Fortran.")
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)

@@ -70,8 +70,9 @@ Vector3 Raster::direction(const SampleWindow& window, size_t sample) const {
   const size_t pixel = sample / places_.size();
   const SamplePlace& place = places_[sample % places_.size()];
   const auto width = static_cast<size_t>(window.width);
+  const size_t row = pixel / width;
   return view_.direction(static_cast<double>(pixel % width) + place.x,
-                         static_cast<double>(pixel / width) + window.first_row + place.y);
+                         static_cast<double>(row) + window.first_row + place.y);
 }
 
 void PatchPoints::locate(int64_t patch, const Vector3& direction, double uv[2]) {

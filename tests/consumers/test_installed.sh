@@ -16,6 +16,9 @@ case $(pkg-config --libs --cflags --static hrad) in
   *"$folder/before"*) echo "hrad.pc names the prefix that is gone" >&2 && exit 1 ;;
 esac
 
+# The tool runs from the moved prefix, also when the library is shared; in /usr the loader looks by itself.
+grep -q '^CMAKE_INSTALL_PREFIX:PATH=/usr$' "$HRAD_BINARY_DIR/CMakeCache.txt" || after/bin/hrad --version
+
 # The flags of this build, so that a library built with a sanitizer links as well.
 flags=$(sed -n 's/^CMAKE_C_FLAGS:STRING=//p' "$HRAD_BINARY_DIR/CMakeCache.txt")
 library_path=$(dirname "$(find "$folder/after" -name 'libhrad.[as]*' | head -n 1)")
