@@ -458,9 +458,9 @@ HRAD_API hrad_status hrad_power_balance(const hrad_solver* solver, double* emitt
  * writers away. Several ranks pack and write a part each, through MPI-IO into a folder that all of
  * them must share (rank 0's path counts); the bytes are those of one rank, and no rank holds the
  * links of all. Errors: FILE (what failed, on whichever rank; the old file is whole), also when
- * another process holds the lock; STATE from the progress callback while there is nothing yet to go on from, or of
- * several ranks, which must write together: stop the solve there, write on all of them, and solve
- * on. */
+ * another process holds the lock; STATE from the progress callback while there is nothing yet to go
+ * on from, or of several ranks, which must write together: stop the solve there, write on all of
+ * them, and solve on. */
 HRAD_API hrad_status hrad_write_checkpoint(hrad_solver* solver, const char* path);
 
 /* [C] Locks a checkpoint against other writers, in this and in other processes, before it is first

@@ -99,8 +99,7 @@ void Solver::take_over(CheckpointContent& content) {
   // Counts are added up over all ranks.
   state.rays = comm_->rank() == 0 ? content.rays : 0;
   state.pairs = comm_->rank() == 0 ? content.pairs : 0;
-  state.journal =
-      LinkJournal::restored(content.key_of_steps, state.rays, std::move(content.steps));
+  state.journal = LinkJournal::restored(content.key_of_steps, state.rays, std::move(content.steps));
   if (!content.state) return;
   const int64_t before = bytes_of(state);
   state.forest = std::move(content.state->forest);

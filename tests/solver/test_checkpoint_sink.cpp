@@ -27,8 +27,8 @@ int64_t items_of(Section section) {
   constexpr int64_t runs[] = {1, 0, 40, 3};
   const auto k = static_cast<size_t>(section);
   if (hrad::items_of_run(section) == 1) return 1;
-  return std::max<int64_t>(
-      0, hrad::items_of_run(section) * runs[k % 4] - static_cast<int64_t>(k % 3));
+  return std::max<int64_t>(0,
+                           hrad::items_of_run(section) * runs[k % 4] - static_cast<int64_t>(k % 3));
 }
 
 // What an item is: some numbers, often none.
