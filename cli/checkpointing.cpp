@@ -104,31 +104,16 @@ bool Checkpointing::stops(const hrad_progress& progress) {
     if (due_) write_on_the_way();
     return false;
   }
-  pauses_ = may_pause(progress) && due_;
-  if (pauses_) {
-    paused_iteration_ = progress.iteration;
-    paused_fraction_ = progress.fraction;
-  }
+  pauses_ = pause_.is_allowed(progress) && due_;
+  if (pauses_) pause_.begin(progress);
   return pauses_;
-}
-
-// Not before the solve has gone on from where it paused last for as long as it took to get there
-// again, or it would hardly get any further; and a measurement would begin anew.
-bool Checkpointing::may_pause(const hrad_progress& progress) {
-  if (progress.iteration <= paused_iteration_ && progress.fraction <= paused_fraction_)
-    return false;
-  const Clock::time_point now = Clock::now();
-  if (!caught_up_) caught_up_at_ = now;
-  caught_up_ = true;
-  return progress.stage != nullptr && std::strcmp(progress.stage, "measure") != 0 &&
-         now - caught_up_at_ >= caught_up_at_ - resumed_at_;
 }
 
 int Checkpointing::solve() {
   hrad_status status = HRAD_OK;
   for (;;) {
-    pauses_ = caught_up_ = false;
-    resumed_at_ = Clock::now();
+    pauses_ = false;
+    pause_.resume();
     status = session_->solve_until([this](const hrad_progress& p) { return stops(p); });
     signals::check();
     if (status != HRAD_STOPPED) break;

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "checkpoint_options.h"
+#include "pause.h"
 #include "session.h"
 
 namespace hrad::cli {
@@ -29,7 +30,6 @@ class Checkpointing {
   void restart_automatically();
   bool restart_from(const std::string& path);
   bool stops(const hrad_progress& progress);
-  bool may_pause(const hrad_progress& progress);
   bool out_of_time() const;
   void write();
   void write_on_the_way();
@@ -41,12 +41,9 @@ class Checkpointing {
   const Clock::time_point start_ = Clock::now();
   Clock::time_point last_written_ = Clock::now();
   bool begun_ = false;
-  bool due_ = false;               // a checkpoint on the way
-  bool pauses_ = false;            // the solve was stopped to write it
-  int64_t paused_iteration_ = -1;  // where it was the last time
-  double paused_fraction_ = -1;
-  bool caught_up_ = false;  // the solve has got there again since
-  Clock::time_point resumed_at_, caught_up_at_;
+  bool due_ = false;     // a checkpoint on the way
+  bool pauses_ = false;  // the solve was stopped to write it
+  Pause pause_;
   int64_t sweeps_written_ = -1;  // what the file under the checkpoint's name has, -1: not ours
   int32_t converged_written_ = 0;
 };

@@ -17,9 +17,7 @@ case "${1:-}" in
     ;;
 esac
 
-generator=(-G Ninja)
-if [[ -f $folder/CMakeCache.txt ]]; then generator=(); fi
-cmake --preset coverage -B "$folder" "${generator[@]}" -DHRAD_TESTS=ON >/dev/null
+bash tests/configure.sh coverage "$folder" -DHRAD_TESTS=ON >/dev/null
 cmake --build "$folder" --parallel "$(nproc)" >/dev/null
 find "$folder" -name '*.gcda' -delete
 # A test that fails still counts what it ran; its name is printed.

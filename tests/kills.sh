@@ -5,8 +5,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-generator=(-G Ninja)
-if [[ -f build-tests/CMakeCache.txt ]]; then generator=(); fi  # a configured folder keeps its own
-cmake --preset release -B build-tests "${generator[@]}" -DHRAD_TESTS=ON -DHRAD_WERROR=ON
+bash tests/configure.sh release build-tests -DHRAD_TESTS=ON -DHRAD_WERROR=ON
 cmake --build build-tests --parallel "$(nproc)" --target hrad_cli
 HRAD_KILLS=${1:-300} HRAD_LONG=1 ctest --test-dir build-tests -R '^cli_(kills|damage)$' --verbose --timeout 20000

@@ -33,10 +33,7 @@ test_of() {
 }
 
 configure() {
-  local generator=(-G Ninja)
-  if [[ -f build-tests/CMakeCache.txt ]]; then generator=(); fi  # a configured folder keeps its own
-  cmake --preset release -B build-tests "${generator[@]}" -DHRAD_TESTS=ON \
-    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+  bash tests/configure.sh release build-tests -DHRAD_TESTS=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
 }
 
 lint_man() {

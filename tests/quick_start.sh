@@ -7,9 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 bash tests/setup.sh build
 
-generator=(-G Ninja)
-if [[ -f build/CMakeCache.txt ]]; then generator=(); fi  # a configured folder keeps its own
-cmake -S . -B build "${generator[@]}" -DCMAKE_BUILD_TYPE=Release -DHRAD_TESTS=OFF
+bash tests/configure.sh release build -DHRAD_TESTS=OFF
 cmake --build build --parallel "$(nproc)"
 
 mkdir -p out

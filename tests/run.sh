@@ -21,9 +21,7 @@ esac
 
 # build PRESET FOLDER: configures and builds the library, the tool, the tests and the benchmarks.
 build() {
-  local generator=(-G Ninja)
-  if [[ -f $2/CMakeCache.txt ]]; then generator=(); fi  # a configured folder keeps its own
-  cmake --preset "$1" -B "$2" "${generator[@]}" -DHRAD_TESTS=ON -DHRAD_WERROR=ON
+  bash tests/configure.sh "$1" "$2" -DHRAD_TESTS=ON -DHRAD_WERROR=ON
   cmake --build "$2" --parallel "$(nproc)"
 }
 
@@ -34,9 +32,7 @@ run_tests() {
 
 # The library and the tool without all that is optional, and tests of each kind that tell.
 test_without_options() {
-  local generator=(-G Ninja)
-  if [[ -f build-plain/CMakeCache.txt ]]; then generator=(); fi
-  cmake --preset release -B build-plain "${generator[@]}" -DHRAD_TESTS=ON -DHRAD_WERROR=ON -DHRAD_MPI=OFF \
+  bash tests/configure.sh release build-plain -DHRAD_TESTS=ON -DHRAD_WERROR=ON -DHRAD_MPI=OFF \
     -DHRAD_FORTRAN=OFF -DHRAD_EMBREE=OFF -DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON
   cmake --build build-plain --parallel "$(nproc)" --target hrad_cli hrad_man test_api_solve \
     test_api_checkpoint test_physics_furnaces test_solver_ranks_few
@@ -52,9 +48,8 @@ fuzz() {
     echo "No clang with libFuzzer: the fuzz targets are left out, their corpus was replayed." >&2
     return
   fi
-  local generator=(-G Ninja) source target dictionary
-  if [[ -f build-fuzz/CMakeCache.txt ]]; then generator=(); fi
-  cmake --preset fuzz -B build-fuzz "${generator[@]}" -DHRAD_TESTS=ON
+  local source target dictionary
+  bash tests/configure.sh fuzz build-fuzz -DHRAD_TESTS=ON
   for source in tests/fuzz/fuzz_*.cpp; do
     target=$(basename "$source" .cpp)
     cmake --build build-fuzz --parallel "$(nproc)" --target "$target"

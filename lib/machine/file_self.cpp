@@ -55,17 +55,22 @@ std::string TemporaryNames::name(int attempt) const {
          temporary_end;
 }
 
+// Or of a file that MPI has for a moment beside it, of its name and more behind a dot.
+bool TemporaryNames::is_one(const char* name) const {
+  if (std::strncmp(name, beginning.c_str(), beginning.size()) != 0) return false;
+  const char* rest = name + beginning.size();
+  const char* end = std::strstr(rest, temporary_end);
+  if (!end || end == rest) return false;
+  end += sizeof temporary_end - 1;
+  return *end == '\0' || *end == '.';
+}
+
 // Allocates nothing by itself, so that nothing is thrown where the lock was just taken.
 void TemporaryNames::remove_all() const {
   DIR* entries = ::opendir(folder.c_str());
   if (!entries) return;
-  while (const dirent* entry = ::readdir(entries)) {
-    const size_t length = std::strlen(entry->d_name), end = sizeof temporary_end - 1;
-    if (length > beginning.size() + end &&
-        beginning.compare(0, beginning.size(), entry->d_name, beginning.size()) == 0 &&
-        std::strcmp(entry->d_name + length - end, temporary_end) == 0)
-      ::unlinkat(::dirfd(entries), entry->d_name, 0);
-  }
+  while (const dirent* entry = ::readdir(entries))
+    if (is_one(entry->d_name)) ::unlinkat(::dirfd(entries), entry->d_name, 0);
   ::closedir(entries);
 }
 

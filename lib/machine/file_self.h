@@ -20,6 +20,7 @@ struct TemporaryNames {
   // Removes all of them, whichever process of whichever machine they are of: for who keeps every
   // other writer of the target away (FileLock). What can't be removed stays.
   void remove_all() const;
+  bool is_one(const char* name) const;  // without its folder
 
   std::string folder, beginning;
 };

@@ -17,7 +17,7 @@
 namespace hrad {
 namespace {
 
-uint64_t hash_of_radiosity(const State& state) {
+uint64_t hash_of_light_on(const State& state) {
   Hasher hash;
   for (const auto* light : {&state.radiosity, &state.irradiance})
     for (float value : *light) hash.add(value);
@@ -117,8 +117,9 @@ bool Solver::Run::round() {
   if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
   rebalance(state_, exchange_, work_);
   // Every decision of a round follows from the light that it begins with.
+  const bool keeps = params_.resumable != 0 || !state_.journal.empty();
   begin_journal(mix(hash_of_linking(params_, solution_.light_hash, solution_.scale),
-                    static_cast<uint64_t>(number), hash_of_radiosity(state_)));
+                    static_cast<uint64_t>(number), keeps ? hash_of_light_on(state_) : 0));
   const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
   const bool done = refine_links(state_, tools(number), brightness, &work_);
   solver_.stats_.seconds_iterative +=

@@ -54,8 +54,8 @@ bool refine_clusters(State& state, const StageTools& tools, const Brightness& br
     std::vector<uint8_t> is_new(tasks.size(), 0);
     const auto name_of = [&](size_t k) { return static_cast<uint64_t>(tasks[k].cluster); };
     state.journal.next_pass();
-    const bool going_on = for_each_recorded(
-        tools.team, state.journal.recording, static_cast<int64_t>(own.size()),
+    const bool going_on = state.journal.for_each(
+        tools.team, static_cast<int64_t>(own.size()),
         [&](int64_t turn, int worker) {
           const size_t k = own[static_cast<size_t>(turn)];
           is_new[k] = !state.journal.known(name_of(k), [&](KnownResult& known) {
@@ -67,13 +67,9 @@ bool refine_clusters(State& state, const StageTools& tools, const Brightness& br
                       "links of clusters");
         },
         [&](int64_t) { return tools.progress(0); },
-        [&](int64_t turn, int64_t end) {
-          LinkStep step;
-          for (; turn < end; ++turn) {
-            const size_t k = own[static_cast<size_t>(turn)];
-            if (is_new[k]) add_result(step, name_of(k), results[k]);
-          }
-          state.journal.record(std::move(step));
+        [&](LinkStep& step, int64_t turn) {
+          const size_t k = own[static_cast<size_t>(turn)];
+          if (is_new[k]) add_result(step, name_of(k), results[k]);
         });
     if (!tools.exchange.all_go_on(going_on)) return false;
     std::vector<std::vector<Link>> runs;

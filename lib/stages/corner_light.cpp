@@ -167,8 +167,8 @@ bool CornerSampler::sample_some(size_t first, size_t end) {
   const auto first_of = [&](int64_t task) {
     return std::min(end, first + static_cast<size_t>(task) * corners_of_a_task);
   };
-  const bool going_on = for_each_recorded(
-      tools_.team, state_.journal.recording, static_cast<int64_t>(tasks),
+  const bool going_on = state_.journal.for_each(
+      tools_.team, static_cast<int64_t>(tasks),
       [&](int64_t task, int) {
         std::vector<Link>& links = parts_[first_part + static_cast<size_t>(task)];
         size_t count_of[corners_of_a_task] = {};
@@ -189,12 +189,10 @@ bool CornerSampler::sample_some(size_t first, size_t end) {
                                                               static_cast<double>(tasks);
         return tools_.progress(known / static_cast<double>(std::max(expected_, asked())));
       },
-      [&](int64_t task, int64_t end_task) {
-        LinkStep step;
-        for (size_t k = first_of(task); k < first_of(end_task); ++k)
+      [&](LinkStep& step, int64_t task) {
+        for (size_t k = first_of(task); k < first_of(task + 1); ++k)
           if (is_new[k - first])
             step.add_run(wanted_[k - first_wanted].name, links_[k], rays[k - first]);
-        state_.journal.record(std::move(step));
       });
   if (!going_on) return false;
   for (int64_t r : rays) state_.rays += r;

@@ -71,8 +71,8 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
     std::vector<uint8_t> is_new(some, 0);
     const auto name_of = [&](size_t k) { return name_of_element(forest_, leaves[first + k]); };
     StageMemory memory(state_);
-    const bool going_on = for_each_recorded(
-        tools_.team, state_.journal.recording, static_cast<int64_t>(some),
+    const bool going_on = state_.journal.for_each(
+        tools_.team, static_cast<int64_t>(some),
         [&](int64_t turn, int) {
           const size_t k = static_cast<size_t>(turn);
           if (!is_mine(k)) return;
@@ -92,11 +92,9 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
           return tools_.progress((static_cast<double>(first) + static_cast<double>(done)) /
                                  static_cast<double>(count));
         },
-        [&](int64_t turn, int64_t end) {
-          LinkStep step;
-          for (size_t k = static_cast<size_t>(turn); k < static_cast<size_t>(end); ++k)
-            if (is_new[k]) step.add_run(name_of(k), runs[k], rays[k]);
-          state_.journal.record(std::move(step));
+        [&](LinkStep& step, int64_t turn) {
+          const size_t k = static_cast<size_t>(turn);
+          if (is_new[k]) step.add_run(name_of(k), runs[k], rays[k]);
         });
     if (!tools_.exchange.all_go_on(going_on)) return false;
     std::vector<LinkTable::NewRun> all_runs;

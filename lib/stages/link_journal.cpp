@@ -71,8 +71,38 @@ bool LinkJournal::known_run(uint64_t name, const std::function<bool(NodeId)>& is
   return true;
 }
 
+bool LinkJournal::for_each(ThreadTeam& team, int64_t count,
+                           const std::function<void(int64_t task, int worker)>& body,
+                           const std::function<bool(int64_t done)>& between,
+                           const std::function<void(LinkStep& step, int64_t task)>& add) {
+  if (!recording) return team.for_each(count, body, between);
+  using Clock = std::chrono::steady_clock;
+  std::vector<uint8_t> is_done(static_cast<size_t>(count), 0);
+  bool going_on = true;
+  for (int64_t next = 0; next < count && going_on;) {
+    const Clock::time_point start = Clock::now();
+    const int64_t first = next;
+    team.for_each(
+        count - first,
+        [&](int64_t turn, int worker) {
+          body(first + turn, worker);
+          is_done[static_cast<size_t>(first + turn)] = 1;
+        },
+        [&](int64_t done) {
+          going_on = going_on && between(first + done);
+          return going_on &&
+                 std::chrono::duration<double>(Clock::now() - start).count() < seconds_of_a_turn;
+        });
+    // Tasks begin in ascending order, and those that were begun have been finished.
+    LinkStep step;
+    for (; next < count && is_done[static_cast<size_t>(next)]; ++next) add(step, next);
+    record(std::move(step));
+  }
+  return going_on;
+}
+
 void LinkJournal::record(LinkStep step) {
-  if (!recording || step.names.empty()) return;
+  if (step.names.empty()) return;
   step.pass = pass_;
   push(std::move(step));
 }
@@ -95,36 +125,6 @@ bool are_links(const std::vector<Link>& links, const std::function<bool(NodeId)>
   return std::all_of(links.begin(), links.end(), [&](const Link& link) {
     return link.weight >= 0 && link.weight <= largest_weight && is_source(link.source);
   });
-}
-
-bool for_each_recorded(ThreadTeam& team, bool recording, int64_t count,
-                       const std::function<void(int64_t task, int worker)>& body,
-                       const std::function<bool(int64_t done)>& between,
-                       const std::function<void(int64_t first, int64_t end)>& record) {
-  if (!recording) return team.for_each(count, body, between);
-  using Clock = std::chrono::steady_clock;
-  std::vector<uint8_t> is_done(static_cast<size_t>(count), 0);
-  bool going_on = true;
-  for (int64_t first = 0; first < count && going_on;) {
-    const Clock::time_point start = Clock::now();
-    team.for_each(
-        count - first,
-        [&](int64_t turn, int worker) {
-          body(first + turn, worker);
-          is_done[static_cast<size_t>(first + turn)] = 1;
-        },
-        [&](int64_t done) {
-          going_on = going_on && between(first + done);
-          return going_on &&
-                 std::chrono::duration<double>(Clock::now() - start).count() < seconds_of_a_turn;
-        });
-    // Tasks begin in ascending order, and those that were begun have been finished.
-    int64_t end = first;
-    while (end < count && is_done[static_cast<size_t>(end)]) ++end;
-    if (end > first) record(first, end);
-    first = end;
-  }
-  return going_on;
 }
 
 }  // namespace hrad

@@ -86,8 +86,14 @@ class LinkJournal {
   // Of a task that is to find one run of links: appends what is known of it, its links and rays.
   bool known_run(uint64_t name, const std::function<bool(NodeId)>& is_source,
                  std::vector<Link>& links, int64_t& rays) const;
-  // Tasks of this pass that were done now.
-  void record(LinkStep step);
+  // Runs the tasks of a pass: in turns of some seconds where they are recorded, else all at once.
+  // Between turns, and when `between` asks to stop, add(step, task) adds the result of each task
+  // that has been done since the last time, if it is new. body and between as for
+  // ThreadTeam::for_each; false: stopped.
+  bool for_each(ThreadTeam& team, int64_t count,
+                const std::function<void(int64_t task, int worker)>& body,
+                const std::function<bool(int64_t done)>& between,
+                const std::function<void(LinkStep& step, int64_t task)>& add);
 
   // To be kept in a file.
   uint64_t key() const { return key_; }
@@ -102,6 +108,7 @@ class LinkJournal {
     journal.recording = recording;
     return journal;
   }
+  void record(LinkStep step);  // of this pass
   void push(LinkStep step);
 
   struct Entry {
@@ -118,13 +125,5 @@ class LinkJournal {
 
 // Links whose sources are what they may be, and whose weights are weights.
 bool are_links(const std::vector<Link>& links, const std::function<bool(NodeId)>& is_source);
-
-// Runs tasks in turns of some seconds, or all at once where nothing is recorded. Between turns, and
-// when `between` asks to stop, record(first, end) is told which tasks have been done since the
-// last time. body and between as for ThreadTeam::for_each; false: stopped.
-bool for_each_recorded(ThreadTeam& team, bool recording, int64_t count,
-                       const std::function<void(int64_t task, int worker)>& body,
-                       const std::function<bool(int64_t done)>& between,
-                       const std::function<void(int64_t first, int64_t end)>& record);
 
 }  // namespace hrad

@@ -16,6 +16,9 @@
 namespace hrad {
 namespace {
 
+// What is found is put together after so many, so that little stands beside it.
+constexpr size_t tasks_of_a_batch = 65536;
+
 // Every process counts those of its own surfaces with later ones, per pair of owners.
 std::vector<uint64_t> facing_pairs(const PairLinker& linker, int64_t count,
                                    const StageTools& tools) {
@@ -65,31 +68,10 @@ class PairSearch {
     const LinkSampler model(state_.forest, tools_.engine, tools_.exposure, tools_.oracle.seed,
                             tools_.oracle.near_ratio);
     std::vector<LinkSampler> samplers(tools_.team.size(), model);
-    std::vector<PairsFound> known(tasks.size()), results(tasks.size());
-    const bool going_on = for_each_recorded(
-        tools_.team, state_.journal.recording, static_cast<int64_t>(tasks.size()),
-        [&](int64_t turn, int worker) {
-          const size_t k = static_cast<size_t>(turn);
-          const PairTask& task = tasks[k];
-          const auto wanted = [&](NodeId q) { return is_mine(task.p, exchange_.owner(q), which); };
-          known[k] = known_pairs(state_.journal, task, wanted);
-          results[k] = linker_.link(task, wanted, known[k].looked_at, samplers[worker]);
-          memory.take(static_cast<int64_t>((known[k].found.size() + results[k].found.size()) *
-                                           sizeof(Reciprocal)),
-                      "links");
-        },
-        [&](int64_t done) {
-          return tools_.progress(static_cast<double>(done) / static_cast<double>(tasks.size()));
-        },
-        [&](int64_t turn, int64_t end) {
-          LinkStep step;
-          for (size_t k = static_cast<size_t>(turn); k < static_cast<size_t>(end); ++k)
-            if (results[k].looked_at.any()) add_result(step, tasks[k], results[k]);
-          state_.journal.record(std::move(step));
-        });
-    if (!exchange_.all_go_on(going_on)) return false;
-    for (size_t k = 0; k < tasks.size(); ++k) take(tasks[k], {&known[k], &results[k]});
-    return true;
+    bool going_on = true;
+    for (size_t first = 0; first < tasks.size() && going_on; first += tasks_of_a_batch)
+      going_on = look_at_some(tasks, first, which, samplers, memory);
+    return exchange_.all_go_on(going_on);
   }
 
   // To every owner the links of its receivers that were found here.
@@ -135,6 +117,35 @@ class PairSearch {
             {p, first, std::min(static_cast<NodeId>(count_), first + partners_of_a_task)});
     }
     return tasks;
+  }
+
+  // The tasks from `first` on, so many as make a batch.
+  bool look_at_some(const std::vector<PairTask>& tasks, size_t first, Which which,
+                    std::vector<LinkSampler>& samplers, StageMemory& memory) {
+    const size_t count = std::min(tasks_of_a_batch, tasks.size() - first);
+    std::vector<PairsFound> known(count), results(count);
+    const bool going_on = state_.journal.for_each(
+        tools_.team, static_cast<int64_t>(count),
+        [&](int64_t turn, int worker) {
+          const size_t k = static_cast<size_t>(turn);
+          const PairTask& task = tasks[first + k];
+          const auto wanted = [&](NodeId q) { return is_mine(task.p, exchange_.owner(q), which); };
+          known[k] = known_pairs(state_.journal, task, wanted);
+          results[k] = linker_.link(task, wanted, known[k].looked_at, samplers[worker]);
+          memory.take(static_cast<int64_t>((known[k].found.size() + results[k].found.size()) *
+                                           sizeof(Reciprocal)),
+                      "links");
+        },
+        [&](int64_t done) {
+          return tools_.progress((static_cast<double>(first) + static_cast<double>(done)) /
+                                 static_cast<double>(tasks.size()));
+        },
+        [&](LinkStep& step, int64_t turn) {
+          const size_t k = static_cast<size_t>(turn);
+          if (results[k].looked_at.any()) add_result(step, tasks[first + k], results[k]);
+        });
+    for (size_t k = 0; k < count && going_on; ++k) take(tasks[first + k], {&known[k], &results[k]});
+    return going_on;
   }
 
   void take(const PairTask& task, std::initializer_list<const PairsFound*> results) {

@@ -42,13 +42,6 @@ std::vector<int64_t> subtree_links(const State& state) {
   return count;
 }
 
-int64_t bytes_of(const SubtreeResult& result) {
-  size_t bytes = result.nodes.size() * sizeof(SubtreeNode);
-  for (const SubtreeNode& node : result.nodes)
-    bytes += (node.run.size() + node.arriving.size()) * sizeof(Link);
-  return static_cast<int64_t>(bytes);
-}
-
 // One round, pass after pass: first all surfaces, then the children of those that were cut. Every
 // owner makes its passes alone, as no task sees what others have made; the elements have numbers of
 // its own until all owners are through.
@@ -159,8 +152,8 @@ bool RefiningRound::pass() {
   std::vector<uint8_t> is_new(tasks_.size(), 0);
   const bool first = passes_.empty();
   const auto name_of = [&](size_t k) { return name_of_element(state_.forest, tasks_[k].root); };
-  const bool going_on = for_each_recorded(
-      tools_.team, state_.journal.recording, static_cast<int64_t>(order.size()),
+  const bool going_on = state_.journal.for_each(
+      tools_.team, static_cast<int64_t>(order.size()),
       [&](int64_t turn, int worker) {
         const size_t k = order[static_cast<size_t>(turn)];
         const Task& task = tasks_[k];
@@ -180,13 +173,9 @@ bool RefiningRound::pass() {
         return tools_.progress(first ? static_cast<double>(done) / static_cast<double>(order.size())
                                      : 1);
       },
-      [&](int64_t turn, int64_t end) {
-        LinkStep step;
-        for (; turn < end; ++turn) {
-          const size_t k = order[static_cast<size_t>(turn)];
-          if (is_new[k]) add_result(step, name_of(k), results[k]);
-        }
-        state_.journal.record(std::move(step));
+      [&](LinkStep& step, int64_t turn) {
+        const size_t k = order[static_cast<size_t>(turn)];
+        if (is_new[k]) add_result(step, name_of(k), results[k]);
       });
   if (!going_on) return false;
   for (size_t k = 0; k < tasks_.size(); ++k)

@@ -120,8 +120,8 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     const auto first_of = [&](int64_t task) {
       return std::min(end, first + task * rows_of_a_task);
     };
-    going_on = for_each_recorded(
-        tools.team, state.journal.recording, tasks,
+    going_on = state.journal.for_each(
+        tools.team, tasks,
         [&](int64_t task, int) {
           RowTracer tracer(state, tools, settings, grid);
           std::vector<Link>& links = links_of_task[static_cast<size_t>(task)];
@@ -148,12 +148,10 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
               (static_cast<double>(first) + static_cast<double>(done * rows_of_a_task)) /
               static_cast<double>(count + rows_of_a_task));
         },
-        [&](int64_t task, int64_t end_task) {
-          LinkStep step;
-          for (int64_t k = first_of(task); k < first_of(end_task); ++k)
+        [&](LinkStep& step, int64_t task) {
+          for (int64_t k = first_of(task); k < first_of(task + 1); ++k)
             if (is_new[k - first])
               step.add_run(name_of_element(forest, cells[k]), rows[k - first], rays[k - first]);
-          state.journal.record(std::move(step));
         });
     going_on = tools.exchange.all_go_on(going_on);
     if (!going_on) break;

@@ -15,6 +15,13 @@ constexpr double quarter_weight = 8, at_most_weight = 4;
 
 }  // namespace
 
+int64_t bytes_of(const SubtreeResult& result) {
+  size_t bytes = result.nodes.size() * sizeof(SubtreeNode);
+  for (const SubtreeNode& node : result.nodes)
+    bytes += (node.run.size() + node.arriving.size()) * sizeof(Link);
+  return static_cast<int64_t>(bytes);
+}
+
 SubtreeResult SubtreeRefiner::refine(NodeId root, Span<const Link> arriving, Span<const NodeId> met,
                                      bool hand_on) {
   result_ = SubtreeResult{};

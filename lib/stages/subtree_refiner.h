@@ -26,6 +26,8 @@ struct SubtreeResult {
   int64_t rays = 0;
 };
 
+int64_t bytes_of(const SubtreeResult& result);
+
 class SubtreeRefiner {
  public:
   // points: of the ends in the present state, where there are clusters.

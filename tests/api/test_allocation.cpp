@@ -4,13 +4,11 @@
 #include <stdlib.h>
 
 #include <atomic>
-#include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <new>
 #include <string>
 
+#include "support/allocation.h"
 #include "support/check.h"
 
 namespace {
@@ -18,54 +16,15 @@ namespace {
 std::atomic<int64_t> allocations_left{-1};  // before one fails; negative: none fails
 std::atomic<int64_t> living{0};             // blocks that were not given back
 
-bool must_fail() {
-  if (allocations_left.load() < 0) return false;
-  // The one that reaches 0 fails, and no other: what follows finds memory again.
-  return allocations_left.fetch_sub(1) == 0;
-}
-
-void* allocate(size_t size, size_t alignment) {
-  // aligned_alloc wants a multiple of the alignment.
-  void* block = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
-  if (block) ++living;
-  return block;
-}
-
-void give_back(void* block) {
-  if (!block) return;
-  --living;
-  std::free(block);
-}
-
-void* allocate_or_throw(size_t size, size_t alignment) {
-  void* block = must_fail() ? nullptr : allocate(size, alignment);
-  if (!block) throw std::bad_alloc();
-  return block;
-}
-
-constexpr size_t usual = alignof(std::max_align_t);
-
 }  // namespace
 
-void* operator new(size_t size) { return allocate_or_throw(size, usual); }
-void* operator new[](size_t size) { return allocate_or_throw(size, usual); }
-void* operator new(size_t size, std::align_val_t a) {
-  return allocate_or_throw(size, static_cast<size_t>(a));
+bool hrad_test::may_allocate() {
+  if (allocations_left.load() < 0) return true;
+  // The one that reaches 0 fails, and no other: what follows finds memory again.
+  return allocations_left.fetch_sub(1) != 0;
 }
-void* operator new[](size_t size, std::align_val_t a) {
-  return allocate_or_throw(size, static_cast<size_t>(a));
-}
-// Who asks like this can do without: sorting, for one.
-void* operator new(size_t size, const std::nothrow_t&) noexcept { return allocate(size, usual); }
-void* operator new[](size_t size, const std::nothrow_t&) noexcept { return allocate(size, usual); }
-void operator delete(void* block) noexcept { give_back(block); }
-void operator delete[](void* block) noexcept { give_back(block); }
-void operator delete(void* block, size_t) noexcept { give_back(block); }
-void operator delete[](void* block, size_t) noexcept { give_back(block); }
-void operator delete(void* block, std::align_val_t) noexcept { give_back(block); }
-void operator delete[](void* block, std::align_val_t) noexcept { give_back(block); }
-void operator delete(void* block, size_t, std::align_val_t) noexcept { give_back(block); }
-void operator delete[](void* block, size_t, std::align_val_t) noexcept { give_back(block); }
+void hrad_test::note_allocated(void*) { ++living; }
+void hrad_test::note_given_back(void*) { --living; }
 
 namespace {
 

@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/calibration.h"
-#include "bench/paper_options.h"
-#include "bench/solve_apart.h"
+#include "bench/scene_bench.h"
 #include "solver/checkpoint.h"
 #include "solver/checkpoint_codec.h"
 #include "solver/solver.h"
@@ -26,9 +24,7 @@ constexpr char kCheckpointUsage[] =
     "  --writes N              writes of each solution (default 9)\n"
     "  --interval S            seconds from one checkpoint to the next (default 600)\n";
 
-struct CheckpointOptions {
-  std::vector<std::string> scenes;
-  Settings settings;
+struct CheckpointOptions : SceneOptions {
   int writes = 9;
   double interval = 600;
 };
@@ -48,11 +44,6 @@ struct Costs {
   Cost at_the_end, in_linking;
   int64_t memory[parts] = {}, by_zlib[parts] = {}, in_file[parts] = {};
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 Cost cost_of_writing(hrad::Solver& solver, const std::string& path, int writes) {
   std::vector<double> user, wall;
@@ -162,8 +153,6 @@ void measure(const std::string& scene, const CheckpointOptions& o, Costs& costs)
   static_cast<void>(solver.solve());
 }
 
-double per(double value, double by) { return by > 0 ? value / by : 0; }
-
 void print(const std::string& scene, const CheckpointOptions& o, const Costs& c, double loop) {
   const auto links_there = static_cast<double>(c.stats.links),
              leaves_there = static_cast<double>(c.stats.leaves);
@@ -204,41 +193,28 @@ void print(const std::string& scene, const CheckpointOptions& o, const Costs& c,
 
 CheckpointOptions options_of(const std::vector<std::string>& arguments) {
   CheckpointOptions o;
-  for (size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& a = arguments[i];
-    const bool has_value = i + 1 < arguments.size();
-    if (a == "--set" && has_value)
-      o.settings = settings_in(arguments[++i]);
-    else if (a == "--writes" && has_value)
-      o.writes = static_cast<int>(number_in(a, arguments[++i], 1));
-    else if (a == "--interval" && has_value)
-      o.interval = number_in(a, arguments[++i], 1);
-    else if (a[0] == '-')
-      throw std::invalid_argument("unknown option or no value: " + a);
-    else
-      o.scenes.push_back(a);
-  }
-  if (o.scenes.empty()) throw std::invalid_argument("no scene named");
+  static_cast<SceneOptions&>(o) =
+      scene_options(arguments, [&](const std::string& name, const std::string& value) {
+        if (name == "--writes")
+          o.writes = static_cast<int>(number_in(name, value, 1));
+        else if (name == "--interval")
+          o.interval = number_in(name, value, 1);
+        else
+          return false;
+        return true;
+      });
   return o;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
+  return exit_code_of("bench_checkpoint", kCheckpointUsage, [&] {
     const CheckpointOptions o = options_of({argv + 1, argv + argc});
-    for (const std::string& scene : o.scenes) {
-      double calibration = calibration_seconds();
-      const Costs costs = in_child<Costs>([&](Costs& result) { measure(scene, o, result); });
-      calibration = (calibration + calibration_seconds()) / 2;
-      print(scene, o, costs, calibration);
-    }
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "bench_checkpoint: %s\n%s", error.what(), kCheckpointUsage);
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_checkpoint: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+    for_each_scene<Costs>(
+        o.scenes, [&](const std::string& scene, Costs& costs) { measure(scene, o, costs); },
+        [&](const std::string& scene, const Costs& costs, double calibration) {
+          print(scene, o, costs, calibration);
+        });
+  });
 }

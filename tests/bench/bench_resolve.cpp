@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/calibration.h"
-#include "bench/paper_options.h"
-#include "bench/solve_apart.h"
+#include "bench/scene_bench.h"
 
 using namespace bench;
 
@@ -18,12 +16,6 @@ constexpr char kResolveUsage[] =
     "  --set NAME=VALUE[,...]  settings of every solve (threads is 1 unless set)\n"
     "  --resolves N            re-solves of each scene (default 20)\n";
 
-struct ResolveOptions {
-  std::vector<std::string> scenes;
-  Settings settings;
-  int resolves = 20;
-};
-
 struct Resolves {
   bool done = false;
   char failure[256] = {};
@@ -33,17 +25,10 @@ struct Resolves {
   double sweeps = 0;  // of each re-solve
 };
 
-double per(double value, double by) { return by > 0 ? value / by : 0; }
 double real(int64_t count) { return static_cast<double>(count); }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
-void measure(const std::string& scene, const ResolveOptions& o, Resolves& result) {
-  const auto solver = loaded(scene, o.settings);
+void measure(const std::string& scene, const Settings& settings, int resolves, Resolves& result) {
+  const auto solver = loaded(scene, settings);
   double start = user_seconds();
   solver->solve();
   result.first = user_seconds() - start;
@@ -54,14 +39,14 @@ void measure(const std::string& scene, const ResolveOptions& o, Resolves& result
   physics::ApiSolver::check(hrad_query_patches(solver->get(), HRAD_EMISSION, HRAD_FRONT, 0,
                                                solver->size(), emission.data()));
   std::vector<double> seconds;
-  for (int k = 0; k < o.resolves; ++k) {
+  for (int k = 0; k < resolves; ++k) {
     for (double& e : emission) e *= k % 2 == 0 ? 2 : 0.5;
     physics::ApiSolver::check(hrad_set_emission(solver->get(), 0, solver->size(), emission.data()));
     start = user_seconds();
     solver->solve();
     seconds.push_back(user_seconds() - start);
   }
-  result.sweeps = per(real(solver->stats().iterations - result.stats.iterations), o.resolves);
+  result.sweeps = per(real(solver->stats().iterations - result.stats.iterations), resolves);
   result.median = median(seconds);
   result.fastest = *std::min_element(seconds.begin(), seconds.end());
 }
@@ -90,41 +75,22 @@ void print(const std::string& scene, const Resolves& r, double calibration) {
   std::fflush(stdout);
 }
 
-ResolveOptions options_of(const std::vector<std::string>& arguments) {
-  ResolveOptions o;
-  for (size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& a = arguments[i];
-    const bool has_value = i + 1 < arguments.size();
-    if (a == "--set" && has_value)
-      o.settings = settings_in(arguments[++i]);
-    else if (a == "--resolves" && has_value)
-      o.resolves = static_cast<int>(number_in(a, arguments[++i], 1));
-    else if (a[0] == '-')
-      throw std::invalid_argument("unknown option or no value: " + a);
-    else
-      o.scenes.push_back(a);
-  }
-  if (o.scenes.empty()) throw std::invalid_argument("no scene named");
-  return o;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    const ResolveOptions o = options_of({argv + 1, argv + argc});
-    for (const std::string& scene : o.scenes) {
-      double calibration = calibration_seconds();
-      const Resolves r = in_child<Resolves>([&](Resolves& result) { measure(scene, o, result); });
-      calibration = (calibration + calibration_seconds()) / 2;
-      print(scene, r, calibration);
-    }
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "bench_resolve: %s\n%s", error.what(), kResolveUsage);
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_resolve: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  return exit_code_of("bench_resolve", kResolveUsage, [&] {
+    int resolves = 20;
+    const SceneOptions o = scene_options({argv + 1, argv + argc},
+                                         [&](const std::string& name, const std::string& value) {
+                                           if (name == "--resolves")
+                                             resolves = static_cast<int>(number_in(name, value, 1));
+                                           return name == "--resolves";
+                                         });
+    for_each_scene<Resolves>(
+        o.scenes,
+        [&](const std::string& scene, Resolves& result) {
+          measure(scene, o.settings, resolves, result);
+        },
+        print);
+  });
 }

@@ -19,6 +19,20 @@ run() {
   code=$?
 }
 
+# make_failing_io: the library failing_io.so here, to be loaded before others; skips the test where it
+# can't be.
+make_failing_io() {
+  cc -shared -fPIC -O1 -o failing_io.so "$HRAD_SOURCE_DIR/tests/cli/failing_io.c" -ldl 2>cc.err || {
+    echo "skipped: no C compiler that makes shared libraries: $(head -1 cc.err)"
+    exit 77
+  }
+  # Sanitizers want to be loaded first.
+  if nm "$HRAD" 2>/dev/null | grep -q -e __asan_init -e __tsan_init; then
+    echo "skipped: the tool is built with a sanitizer"
+    exit 77
+  fi
+}
+
 # refuses CODE TEXT ARGUMENTS...: ends with the code, says the text on stderr and nothing on stdout.
 refuses() {
   local wanted=$1 text=$2

@@ -3,15 +3,7 @@
 # there is whole, or the new one is; nothing else is left; the exit code is 5 with what happened.
 . "$(dirname "$0")/common.sh"
 
-cc -shared -fPIC -O1 -o failing_io.so "$HRAD_SOURCE_DIR/tests/cli/failing_io.c" -ldl 2>cc.err || {
-  echo "skipped: no C compiler that makes shared libraries: $(head -1 cc.err)"
-  exit 77
-}
-# Sanitizers want to be loaded first.
-if nm "$HRAD" 2>/dev/null | grep -q -e __asan_init -e __tsan_init; then
-  echo "skipped: the tool is built with a sanitizer"
-  exit 77
-fi
+make_failing_io
 works solve cornell --accuracy 0.5 -o small.hrad
 works solve furnace --accuracy 0.4 -o other.hrad
 here=$work/place

@@ -55,8 +55,11 @@ void left_overs_of_its_file_are_removed() {
   const std::string path = folder.file("a.hrad");
   for (int k = 0; k < 3; ++k) write_and_be_killed(path);
   // Of another machine; nobody here can tell whether it is at work, but for the lock.
-  write_bytes(folder.file(TemporaryNames(path).beginning + "00000000-1-0.tmp"), "far away");
-  CHECK_EQUAL(folder.count(), 4);
+  const std::string far = folder.file(TemporaryNames(path).beginning + "00000000-1-0.tmp");
+  write_bytes(far, "far away");
+  // Of MPI, while it opened that.
+  write_bytes(far + ".locktest.0", "");
+  CHECK_EQUAL(folder.count(), 5);
   write_bytes(path, "old");
   { const FileLock lock(path); }
   CHECK_EQUAL(folder.count(), 1);
@@ -83,8 +86,9 @@ void what_others_write_stays() {
   write_and_be_killed(folder.file("b.hrad"));
   write_and_be_killed(folder.file("a.vtu"));
   const std::string beginning = TemporaryNames(path).beginning;
-  for (const std::string& name : {std::string(".hrad-1-0.tmp"), std::string("notes.tmp"),
-                                  beginning + "notes", beginning.substr(1) + "1-1-0.tmp"})
+  for (const std::string& name :
+       {std::string(".hrad-1-0.tmp"), std::string("notes.tmp"), beginning + "notes",
+        beginning + "notes.tmpl", beginning.substr(1) + "1-1-0.tmp"})
     write_bytes(folder.file(name), "");
   WholeFile exported(folder.file("c.vtu"));
   exported.text("whole");

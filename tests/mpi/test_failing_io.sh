@@ -4,15 +4,7 @@
 # shellcheck source=tests/mpi/common.sh
 . "$HRAD_SOURCE_DIR/tests/mpi/common.sh"
 
-cc -shared -fPIC -O1 -o failing_io.so "$HRAD_SOURCE_DIR/tests/cli/failing_io.c" -ldl 2>cc.err || {
-  echo "skipped: no C compiler that makes shared libraries: $(head -1 cc.err)"
-  exit 77
-}
-# Sanitizers want to be loaded first.
-if nm "$HRAD" 2>/dev/null | grep -q -e __asan_init -e __tsan_init; then
-  echo "skipped: the tool is built with a sanitizer"
-  exit 77
-fi
+make_failing_io
 cat >process.sh <<'END'
 echo $$ >"process.$OMPI_COMM_WORLD_RANK"
 if [ "$OMPI_COMM_WORLD_RANK" = "$failing" ]; then

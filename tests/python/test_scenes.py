@@ -23,11 +23,11 @@ class Recorder:
     """Stands before the library and notes where pointers lead."""
 
     def __init__(self, library):
-        self.library = library
+        self.wrapped = library
         self.addresses = []
 
     def __getattr__(self, name):
-        function = getattr(self.library, name)
+        function = getattr(self.wrapped, name)
 
         def call(*arguments):
             self.addresses += [ctypes.cast(a, ctypes.c_void_p).value for a in arguments
@@ -118,7 +118,7 @@ class Arrays(support.Case):
     def test_arrays_reach_c_where_they_lie(self):
         recorder = Recorder(_calls.LIBRARY)
         _calls.LIBRARY = recorder
-        self.addCleanup(setattr, _calls, "LIBRARY", recorder.library)
+        self.addCleanup(setattr, _calls, "LIBRARY", recorder.wrapped)
         self.solver.add_material()
         xyz, vertex, material = SQUARE.copy(), HALVES.copy(), np.zeros(2, np.int32)
         emission = np.ones((2, 3))

@@ -3,12 +3,11 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "api/guard.h"
 #include "solver/checkpoint_files.h"
+#include "support/allocation.h"
 #include "support/thread_ranks.h"
 
 namespace {
@@ -16,41 +15,16 @@ namespace {
 // A rank is a thread that gives back itself what it took.
 thread_local int64_t bytes_held = 0, most_held = 0;
 
-void* allocate(size_t size, size_t alignment) {
-  // aligned_alloc wants a multiple of the alignment.
-  void* block = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
-  if (!block) throw std::bad_alloc();
-  bytes_held += static_cast<int64_t>(malloc_usable_size(block));
-  most_held = std::max(most_held, bytes_held);
-  return block;
-}
-
-void give_back(void* block) {
-  if (!block) return;
-  bytes_held -= static_cast<int64_t>(malloc_usable_size(block));
-  std::free(block);
-}
-
-constexpr size_t usual = alignof(std::max_align_t);
-
 }  // namespace
 
-void* operator new(size_t size) { return allocate(size, usual); }
-void* operator new[](size_t size) { return allocate(size, usual); }
-void* operator new(size_t size, std::align_val_t a) {
-  return allocate(size, static_cast<size_t>(a));
+bool hrad_test::may_allocate() { return true; }
+void hrad_test::note_allocated(void* block) {
+  bytes_held += static_cast<int64_t>(malloc_usable_size(block));
+  most_held = std::max(most_held, bytes_held);
 }
-void* operator new[](size_t size, std::align_val_t a) {
-  return allocate(size, static_cast<size_t>(a));
+void hrad_test::note_given_back(void* block) {
+  bytes_held -= static_cast<int64_t>(malloc_usable_size(block));
 }
-void operator delete(void* block) noexcept { give_back(block); }
-void operator delete[](void* block) noexcept { give_back(block); }
-void operator delete(void* block, size_t) noexcept { give_back(block); }
-void operator delete[](void* block, size_t) noexcept { give_back(block); }
-void operator delete(void* block, std::align_val_t) noexcept { give_back(block); }
-void operator delete[](void* block, std::align_val_t) noexcept { give_back(block); }
-void operator delete(void* block, size_t, std::align_val_t) noexcept { give_back(block); }
-void operator delete[](void* block, size_t, std::align_val_t) noexcept { give_back(block); }
 
 namespace {
 

@@ -31,11 +31,19 @@ std::multiset<int> numbers_of(const LinkJournal& journal, uint64_t name) {
   return numbers;
 }
 
+// One task, which adds so many results.
+void record(LinkJournal& journal, const std::function<void(LinkStep&)>& add) {
+  hrad::ThreadTeam team(1);
+  CHECK(journal.for_each(
+      team, 1, [](int64_t, int) {}, [](int64_t) { return true; },
+      [&](LinkStep& step, int64_t) { add(step); }));
+}
+
 void record_number(LinkJournal& journal, uint64_t name, int number) {
-  LinkStep step;
-  hrad::put(step.results, &number, 1);
-  step.end_task(name);
-  journal.record(step);
+  record(journal, [&](LinkStep& step) {
+    hrad::put(step.results, &number, 1);
+    step.end_task(name);
+  });
 }
 
 void results_are_found_by_pass_and_name() {
@@ -73,7 +81,7 @@ void nothing_is_recorded_unless_wanted() {
   record_number(journal, 5, 50);
   CHECK(journal.empty());
   journal.recording = true;
-  journal.record({});
+  record(journal, [](LinkStep&) {});
   CHECK(journal.empty());
 }
 
@@ -84,10 +92,11 @@ void runs_are_taken_where_they_fit() {
   journal.next_pass();
   const std::vector<std::vector<Link>> runs = {
       {{3, 0.5f}, {9, 1.0f}}, {{10, 0.5f}}, {{3, -0.5f}}, {{3, NAN}}, {}};
-  LinkStep step;
-  for (size_t k = 0; k < runs.size(); ++k) step.add_run(k, runs[k], 100 + static_cast<int64_t>(k));
-  step.add_run(5, runs[0], -1);
-  journal.record(step);
+  record(journal, [&](LinkStep& step) {
+    for (size_t k = 0; k < runs.size(); ++k)
+      step.add_run(k, runs[k], 100 + static_cast<int64_t>(k));
+    step.add_run(5, runs[0], -1);
+  });
   journal.begin(1, 17);
   journal.next_pass();
   std::vector<Link> links = {{1, 1}};
@@ -124,24 +133,32 @@ void finished_tasks_are_recorded_once() {
   for (int threads : {1, 3}) {
     hrad::ThreadTeam team(threads);
     for (int64_t stop : {int64_t{0}, int64_t{1}, int64_t{150}, count, count + 1}) {
+      LinkJournal journal = recording_journal(1);
+      journal.next_pass();
       std::vector<int> done(count, 0), recorded(count, 0);
-      const bool going_on = hrad::for_each_recorded(
-          team, true, count, [&](int64_t task, int) { ++done[static_cast<size_t>(task)]; },
+      const bool going_on = journal.for_each(
+          team, count, [&](int64_t task, int) { ++done[static_cast<size_t>(task)]; },
           [&](int64_t finished) { return finished < stop; },
-          [&](int64_t first, int64_t end) {
-            for (; first < end; ++first) ++recorded[static_cast<size_t>(first)];
+          [&](LinkStep& step, int64_t task) {
+            ++recorded[static_cast<size_t>(task)];
+            step.end_task(static_cast<uint64_t>(task));
           });
       CHECK(going_on == (stop > count));
       CHECK(done == recorded);
       CHECK(done.front() == 1);
       if (stop < count && threads == 1) CHECK(done.back() == 0);
       if (stop >= count) CHECK(done.back() == 1);
+      journal.begin(1, 17);
+      journal.next_pass();
+      for (size_t task = 0; task < done.size(); ++task)
+        CHECK(journal.known(task, [](KnownResult&) { return true; }) == (done[task] == 1));
     }
+    LinkJournal silent;
     bool any = false;
-    CHECK(hrad::for_each_recorded(
-        team, false, count, [](int64_t, int) {}, [](int64_t) { return true; },
-        [&](int64_t, int64_t) { any = true; }));
-    CHECK(!any);
+    CHECK(silent.for_each(
+        team, count, [](int64_t, int) {}, [](int64_t) { return true; },
+        [&](LinkStep&, int64_t) { any = true; }));
+    CHECK(!any && silent.empty());
   }
 }
 
