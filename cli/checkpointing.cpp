@@ -6,7 +6,6 @@
 #include <cstring>
 #include <utility>
 
-#include "exit_code.h"
 #include "launcher.h"
 #include "numbers.h"
 #include "signals.h"
@@ -121,8 +120,18 @@ int Checkpointing::solve() {
     if (launcher::of_first(pauses_) == 0) break;
     write_on_the_way();
   }
-  if (status != HRAD_STOPPED && !plan_.path.empty() && has_news()) write();
+  if (status != HRAD_STOPPED && !plan_.path.empty() && has_news()) {
+    try {
+      write();
+    } catch (const Failure& failure) {
+      failure_at_end_ = failure;
+    }
+  }
   return session_->conclude(status);
+}
+
+void Checkpointing::check_end() const {
+  if (failure_at_end_) throw Failure(*failure_at_end_);
 }
 
 // A solve that did nothing leaves the file as it is.

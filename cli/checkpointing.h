@@ -3,8 +3,10 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 
 #include "checkpoint_options.h"
+#include "exit_code.h"
 #include "pause.h"
 #include "session.h"
 
@@ -21,6 +23,8 @@ class Checkpointing {
   // As Session::solve(). Failure with exit_stopped when it was stopped and the checkpoint is
   // written.
   int solve();
+  // Failure when solve() came to its end and could not write the checkpoint of it.
+  void check_end() const;
   // After a signal, wherever it was met: the checkpoint if there is anything new. Throws Failure
   // with exit_stopped, or returns where no checkpoint was asked for.
   void end_by_signal(int signal);
@@ -46,6 +50,7 @@ class Checkpointing {
   Pause pause_;
   int64_t sweeps_written_ = -1;  // what the file under the checkpoint's name has, -1: not ours
   int32_t converged_written_ = 0;
+  std::optional<Failure> failure_at_end_;
 };
 
 }  // namespace hrad::cli

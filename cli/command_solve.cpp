@@ -16,8 +16,8 @@ constexpr const char* notes =
     "\n"
     "With --checkpoint, SIGINT, SIGTERM and SIGUSR1 stop the solve with a checkpoint and the exit\n"
     "code 75, as the time limit does; the same command with --restart auto goes on. A second\n"
-    "SIGINT or SIGTERM stops at once. SIGUSR2 writes a checkpoint and goes on. A stop in a round\n"
-    "of refinement of pairs or clusters begins that round anew.\n"
+    "SIGINT or SIGTERM stops at once. SIGUSR2 writes a checkpoint and goes on. A solve that goes\n"
+    "on repeats some seconds at the most.\n"
     "\n"
     "Examples: hrad solve room.obj --accuracy 0.01 -o room.vtu -o room.csv\n"
     "          hrad solve room.obj --checkpoint room.hrad --restart auto --time-limit 1:55:00";
@@ -45,10 +45,12 @@ int run_solve(const std::vector<std::string>& arguments, Output* output) {
     session.load();
     checkpointing.begin();
     const int code = checkpointing.solve();
+    // What the checkpoint has no room for may be written elsewhere.
     const double seconds_output = files.write(&session);
     const SolveReport report =
         make_report(&session, options.scene(), code, files.paths(), seconds_output);
     (as_json ? append_json : append_summary)(&output->text(), report);
+    checkpointing.check_end();
     return code;
   } catch (const Interrupted& interrupted) {
     checkpointing.end_by_signal(interrupted.signal);

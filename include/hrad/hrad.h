@@ -53,7 +53,8 @@
  * PARAMETERS. Result parameters (bands, accuracy, linking, oracle, thresholds, seed, ...) decide the
  * bits of the result; run parameters (threads, smt, bind, max_memory, ...) never change a bit.
  *
- * BITS. The solution and its hash do not depend on the number of threads or on the processor.
+ * BITS. The solution and its hash do not depend on the number of ranks or threads or on the
+ * processor.
  *
  * ERRORS. Every function that can fail returns a status: 0 done, positive a normal event, negative
  * an error. After an error the outputs are untouched and the solver is usable as before the call,
@@ -440,7 +441,9 @@ HRAD_API hrad_status hrad_power_balance(const hrad_solver *solver, double *emitt
 
 /* A checkpoint (.hrad) holds scene, result parameters, mesh, links, light, measurements and how far the
  * solve has come; hrad-checkpoint(5) describes the bytes. It does not depend on the number of threads or ranks,
- * nor on time or machine. */
+ * nor on time or machine. A file that grows past the limit of the process (RLIMIT_FSIZE) makes the
+ * kernel send SIGXFSZ, which ends a program that neither ignores nor handles it; one that does gets
+ * FILE. */
 
 /* [C] Writes a checkpoint at any time between other calls (of a solver with a scene alone, after a
  * solve, or after one that was stopped) and from the progress callback of a solve, which then goes

@@ -63,7 +63,8 @@ std::string head_and_table(uint64_t file_bytes, const std::vector<SectionEntry>&
 const char* section_name(Section section) { return kinds[static_cast<size_t>(section)].name; }
 int64_t items_of_run(Section section) { return kinds[static_cast<size_t>(section)].items; }
 
-CheckpointSource::CheckpointSource(const std::string& content) : content_(content) {
+CheckpointSource::CheckpointSource(const std::string& content, MemoryBudget& budget)
+    : content_(content), budget_(budget) {
   read_table();
   check_sums();
 }
@@ -154,6 +155,8 @@ void CheckpointSource::read(Section section, int64_t items, const Unpack& unpack
     at += run_head_bytes;
     if (stored > end - at || length / most_compressed > stored || length >= longest_run)
       fail_format(place, "a run of %u bytes, %u when expanded, can't stand there", stored, length);
+    // A reading that fails doesn't go on: what it had counted is of no interest.
+    budget_.take(length, "a run of the checkpoint");
     raw.resize(length);
     decompress(content_.data() + at, stored, place, raw);
     at += stored;
@@ -162,6 +165,7 @@ void CheckpointSource::read(Section section, int64_t items, const Unpack& unpack
     PackedReader bytes(raw.data(), raw.size(), place);
     unpack(first, std::min(items, first + of_run), bytes);
     bytes.finish();
+    budget_.take(-static_cast<int64_t>(length), "a run of the checkpoint");
   }
   if (at != end || raw_bytes != whole.raw || sum != whole.raw_checksum)
     fail_format({section_name(section), at}, "its runs don't add up to what the table states");

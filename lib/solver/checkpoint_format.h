@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "solver/packed_bytes.h"
 
 namespace hrad {
@@ -62,8 +63,8 @@ constexpr size_t longest_run = size_t{1} << 31;
 // every stored byte. FORMAT otherwise.
 class CheckpointSource {
  public:
-  // content must outlive this.
-  explicit CheckpointSource(const std::string& content);
+  // Both must outlive this; runs are counted in the budget while they are expanded.
+  CheckpointSource(const std::string& content, MemoryBudget& budget);
 
   uint32_t version() const { return version_; }
   const SectionEntry& entry(Section section) const { return table_[static_cast<size_t>(section)]; }
@@ -79,6 +80,7 @@ class CheckpointSource {
   void check_sums() const;
 
   const std::string& content_;
+  MemoryBudget& budget_;
   uint32_t version_ = 0;
   std::vector<SectionEntry> table_;
 };

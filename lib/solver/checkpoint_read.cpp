@@ -15,10 +15,10 @@ namespace {
 
 class Reading {
  public:
-  Reading(const CheckpointSource& source, CheckpointContent& content)
-      : source_(source), content_(content) {}
+  Reading(const CheckpointSource& source, MemoryBudget& budget, CheckpointContent& content)
+      : source_(source), budget_(budget), content_(content) {}
 
-  void run(int64_t limit) {
+  void run() {
     one(Section::origin,
         [&](PackedReader& bytes) { content_.origin = bytes.text(longest_origin); });
     one(Section::parameters, [&](PackedReader& bytes) { unpack_params(bytes, content_.params); });
@@ -29,9 +29,7 @@ class Reading {
                   "%lld",
                   static_cast<long long>(sizes_.bands),
                   static_cast<long long>(content_.params.bands));
-    MemoryBudget budget;
-    budget.set_limit(limit);
-    budget.take(bytes_of(sizes_), "what the checkpoint holds");
+    budget_.take(bytes_of(sizes_), "what the checkpoint holds");
     read_scene();
     if (sizes_.surfaces > 0) {
       content_.state = std::make_unique<State>(content_.scene);
@@ -163,6 +161,7 @@ class Reading {
   }
 
   const CheckpointSource& source_;
+  MemoryBudget& budget_;
   CheckpointContent& content_;
   CheckpointSizes sizes_;
 };
@@ -170,9 +169,11 @@ class Reading {
 }  // namespace
 
 std::unique_ptr<CheckpointContent> read_checkpoint(const std::string& bytes, int64_t limit) {
-  const CheckpointSource source(bytes);
+  MemoryBudget budget;
+  budget.set_limit(limit);
+  const CheckpointSource source(bytes, budget);
   auto content = std::make_unique<CheckpointContent>();
-  Reading(source, *content).run(limit);
+  Reading(source, budget, *content).run();
   for (size_t k = 0; k < section_count; ++k) {
     const auto section = static_cast<Section>(k);
     content->section_bytes.emplace_back(section_name(section),

@@ -63,7 +63,7 @@ bool LinkJournal::known_run(uint64_t name, const std::function<bool(NodeId)>& is
   int64_t rays_of_run = 0;
   const bool is_known = !known_.empty() && known(name, [&](KnownResult& result) {
     return result.take(&rays_of_run, 1) && rays_of_run >= 0 && result.take_list(run) &&
-           are_links(run, is_source);
+           result.at_end() && are_links(run, is_source);
   });
   if (!is_known) return false;
   links.insert(links.end(), run.begin(), run.end());

@@ -6,6 +6,7 @@
 make_failing_io
 works solve cornell --accuracy 0.5 -o small.hrad
 works solve furnace --accuracy 0.4 -o other.hrad
+works solve small.hrad -o wanted.csv
 here=$work/place
 mkdir "$here"
 
@@ -14,9 +15,10 @@ attempt() {
   rm -rf "$here"
   mkdir "$here"
   cp other.hrad "$here/c.hrad"
+  rm -f leaves.csv
   HRAD_FAIL_FOLDER=$here HRAD_FAIL_CALL=$1 HRAD_FAIL_EVER=$2 HRAD_FAIL_ERRNO=$3 \
     HRAD_FAIL_REPORT=$work/calls LD_PRELOAD=$work/failing_io.so \
-    "$HRAD" solve small.hrad --checkpoint "$here/c.hrad" >out 2>err </dev/null
+    "$HRAD" solve small.hrad --checkpoint "$here/c.hrad" -o leaves.csv >out 2>err </dev/null
   code=$?
   ran="call $1 failing with $3 (ever: $2)"
 }
@@ -29,7 +31,7 @@ cmp -s "$here/c.hrad" small.hrad || complain "without failures the file is anoth
 cmp -s "$here/c.hrad.prev" other.hrad || complain "the old file was not kept"
 
 # ENOSPC 28, EIO 5, EDQUOT 122, EINTR 4, EROFS 30; 0: a short write.
-failed=0
+failed=0 without_results=0
 for error in 28 5 122 4 30 0; do
   for ever in 0 1; do
     [ "$error" = 4 ] && [ "$ever" = 1 ] && continue # tried again for ever, as it should be
@@ -41,6 +43,13 @@ for error in 28 5 122 4 30 0; do
           ;;
         5)
           failed=$((failed + 1))
+          # Only the lock comes before the solve.
+          if [ ! -e leaves.csv ]; then
+            without_results=$((without_results + 1))
+            grep -q "lock" err || complain "$ran: the results were not written: $(cat err)"
+          else
+            cmp -s leaves.csv wanted.csv || complain "$ran: other results were written"
+          fi
           grep -q "c.hrad" err || complain "$ran: the file is not named: $(cat err)"
           cmp -s "$here/c.hrad" other.hrad || cmp -s "$here/c.hrad" small.hrad ||
             complain "$ran: the file is neither the old nor the new one"
@@ -57,4 +66,5 @@ for error in 28 5 122 4 30 0; do
   done
 done
 [ $failed -gt "$calls" ] || complain "only $failed attempts failed"
+[ $without_results -lt $failed ] || complain "no results beside a checkpoint that failed"
 finish

@@ -271,6 +271,20 @@ void bombs_are_refused() {
   }
 }
 
+// What a run states is its own: it is counted before it is expanded.
+void expanded_runs_are_counted() {
+  const std::string file = with(Section::origin, [&](std::vector<FrameRun>& runs) {
+    runs[0].raw.assign(size_t{64} << 20, '\0');
+  });
+  refuses(file, "section 'origin'");
+  try {
+    hrad::read_checkpoint(file, int64_t{16} << 20);
+    failed(__FILE__, __LINE__, "64 MiB were taken within 16 MiB");
+  } catch (const hrad::Error& error) {
+    CHECK(error.status() == hrad::Status::memory);
+  }
+}
+
 // Replaces the first run of a section.
 std::string with_bytes(Section section, const PackedBytes& bytes, size_t file = 0) {
   return with(
@@ -326,6 +340,7 @@ int main() {
                               HRAD_TEST(any_steps_of_any_method_are_refused_or_harmless),
                               HRAD_TEST(huge_counts_are_refused),
                               HRAD_TEST(bombs_are_refused),
+                              HRAD_TEST(expanded_runs_are_counted),
                               HRAD_TEST(impossible_trees_are_refused),
                               HRAD_TEST(impossible_links_are_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -98,7 +98,8 @@ void what_is_read_is_what_was_given() {
   hrad::CommSelf comm;
   write_all(comm, folder.file("a"), nullptr, {0, own_items});
   const std::string bytes = bytes_of_file(folder.file("a"));
-  const CheckpointSource source(bytes);
+  hrad::MemoryBudget budget;
+  const CheckpointSource source(bytes, budget);
   for (size_t k = 0; k < hrad::section_count; ++k) {
     const auto section = static_cast<Section>(k);
     int64_t items = 0;
