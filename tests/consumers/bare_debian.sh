@@ -51,7 +51,14 @@ fi
 # Python's module.
 if compgen -G './python3-hrad_*.deb' >/dev/null; then
   add ./python3-hrad_*.deb
-  (cd / && python3 -c 'import hrad')
+  (cd / && python3 -c '
+import hrad
+with hrad.Solver() as solver:
+    solver.make_scene("cornell")
+    solver["accuracy"] = 0.05
+    solver.solve()
+    power, front, back, escaped = solver.power_balance()
+assert all(abs(front + back + escaped - power) < 0.01 * power.max())')
 fi
 
 # CMake finds what it needs.
