@@ -1,10 +1,8 @@
-// Answers from a solution: patches, points, sensors, leaves, balance. Floor 8 (solver).
+// Answers from a solution: patches, points, leaves, balance. Floor 8 (solver).
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/hash.h"
-#include "solver/ray_gather.h"
 #include "solver/schedule.h"
 #include "solver/solution.h"
 
@@ -150,52 +148,6 @@ void Solver::query_points(Quantity quantity, int32_t side, int64_t count, const 
       values[b] = value_of(quantity, scene_.emission[at], scene_.reflectance[at], irradiance[b]);
     }
   }
-}
-
-void Solver::query_sensors(int64_t count, const double* xyz, const double* normal,
-                           double* irradiance, double* standard_error) const {
-  require_solved();
-  const int bands = scene_.bands;
-  if (count < 0) fail(Status::argument, "%lld sensors", static_cast<long long>(count));
-  for (int64_t k = 0; k < 3 * count; ++k)
-    if (!std::isfinite(xyz[k]) || !std::isfinite(normal[k]))
-      fail(Status::argument, "sensor %lld has a coordinate that is not finite",
-           static_cast<long long>(k / 3));
-  for (int64_t k = 0; k < count; ++k)
-    if (!(length({normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]}) > 0))
-      fail(Status::argument, "sensor %lld has a normal of length 0", static_cast<long long>(k));
-  comm_->all_go_on();
-  // The noise of n rays is about 1/sqrt(n): a quarter of the accuracy, within bounds.
-  const double wanted = 16 / (params_.accuracy * params_.accuracy);
-  const int rays = static_cast<int>(std::max(1024.0, std::min(65536.0, wanted)));
-  constexpr int groups = 16;  // independent sets, whose spread is the standard error
-  const RayGather gather(solution_->state, *solution_->engine);
-  solution_->team->for_each(count, [&](int64_t k, int) {
-    const Vec3 x{xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]};
-    const Vec3 n = normalized({normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]});
-    Hasher key;
-    key.add(static_cast<uint64_t>(params_.seed));
-    for (int axis = 0; axis < 3; ++axis) {
-      key.add(x[axis]);
-      key.add(n[axis]);
-    }
-    double mean[most_bands] = {}, squares[most_bands] = {};
-    for (int group = 0; group < groups; ++group) {
-      double value[most_bands];
-      gather.mean(x, n, mix(key.value(), static_cast<uint64_t>(group)),
-                  rays / (groups * RayGather::shadow_rays), value);
-      for (int b = 0; b < bands; ++b) {
-        mean[b] += value[b] / groups;
-        squares[b] += value[b] * value[b] / groups;
-      }
-    }
-    for (int b = 0; b < bands; ++b) {
-      irradiance[k * bands + b] = mean[b];
-      if (standard_error)
-        standard_error[k * bands + b] =
-            std::sqrt(std::max(0.0, squares[b] - mean[b] * mean[b]) / (groups - 1));
-    }
-  });
 }
 
 int64_t Solver::leaf_count() const {

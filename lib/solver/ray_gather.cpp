@@ -99,17 +99,6 @@ int64_t RayGather::sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_r
          add_by_shadow_rays(x, n, mix(key, 2), k * shadow_rays, cosine_rays, emitters, value);
 }
 
-int64_t RayGather::mean(Vec3 x, Vec3 n, uint64_t key, int samples, double* value) const {
-  std::fill(value, value + state_.bands, 0.0);
-  int64_t rays = 0;
-  for (int k = 0; k < samples; ++k) {
-    double one[most_bands];
-    rays += sample(x, n, key, static_cast<uint32_t>(k), shadow_rays, by_power_, one);
-    for (int b = 0; b < state_.bands; ++b) value[b] += one[b] / samples;
-  }
-  return rays;
-}
-
 bool RayGather::goes_on(const Hit& hit, double random) const {
   const Scene& scene = *state_.forest.scene;
   const double* reflectance = &scene.reflectance[static_cast<size_t>(hit.patch) * state_.bands];

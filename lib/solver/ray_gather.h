@@ -38,9 +38,6 @@ class RayGather {
   int64_t sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_rays, const Draw& emitters,
                  double* value) const;
 
-  // The mean of so many samples, emitters picked by power.
-  int64_t mean(Vec3 x, Vec3 n, uint64_t key, int samples, double* value) const;
-
  private:
   int64_t sample(Vec3 x, Vec3 n, uint64_t key, uint32_t k, int cosine_rays, const Draw& emitters,
                  int bounces, double* value) const;
