@@ -11,7 +11,7 @@
 
 namespace hrad {
 
-inline uint32_t reversed_bits(uint32_t x) {
+constexpr uint32_t reversed_bits(uint32_t x) {
   x = (x >> 16) | (x << 16);
   x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
   x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
@@ -20,10 +20,9 @@ inline uint32_t reversed_bits(uint32_t x) {
 }
 
 // A permutation of the numbers of 32 bits that keeps the tree of their upper bits: every bit is
-// turned over or not as the bits above it and the seed say.
+// turned over or not as the bits above it and the seed say. It is handed the number in reversed
+// bits, in which products with even factors carry only from higher places to lower ones.
 inline uint32_t owen_scrambled(uint32_t x, uint32_t seed) {
-  // On reversed bits, products with even factors carry only from higher places to lower ones.
-  x = reversed_bits(x);
   x ^= x * 0x3d20adeau;
   x += seed;
   x *= (seed >> 16) | 1u;
@@ -32,7 +31,8 @@ inline uint32_t owen_scrambled(uint32_t x, uint32_t seed) {
   return reversed_bits(x);
 }
 
-// Sobol's second to fourth dimension: for each byte of a point's number the bits it turns over.
+// Sobol's second to fourth dimension: for each byte of a point's number the bits it turns over, of
+// reversed bits. The first dimension is the number itself.
 struct SobolTables {
   uint32_t of[3][4][256];
   constexpr SobolTables() : of() {
@@ -52,7 +52,8 @@ struct SobolTables {
         for (uint32_t value = 1; value < 256; ++value) {
           int bit = 0;
           while (!(value >> bit & 1)) ++bit;
-          of[d][byte][value] = of[d][byte][value & (value - 1)] ^ direction[8 * byte + bit];
+          of[d][byte][value] =
+              of[d][byte][value & (value - 1)] ^ reversed_bits(direction[8 * byte + bit]);
         }
     }
   }
@@ -70,8 +71,8 @@ class LowDiscrepancy {
   void point(uint32_t k, double point[4]) const {
     // From a block of the sequence that the key picks, in an order of its own: parts of it are as
     // good as its beginning.
-    const uint32_t index = owen_scrambled(k, block_);
-    uint32_t x[4] = {reversed_bits(index), 0, 0, 0};
+    const uint32_t index = owen_scrambled(reversed_bits(k), block_);
+    uint32_t x[4] = {index, 0, 0, 0};
     for (int d = 0; d < 3; ++d)
       for (int byte = 0; byte < 4; ++byte)
         x[d + 1] ^= sobol_tables.of[d][byte][index >> (8 * byte) & 255];

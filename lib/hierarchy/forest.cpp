@@ -79,19 +79,49 @@ NodeId Forest::root(int64_t patch, int32_t side) const {
 
 NodeId Forest::leaf_at(NodeId root, double u, double v) const {
   NodeId id = root;
-  while (!is_leaf(id)) {
-    double x, y;
-    element_coordinates(nodes[id], u, v, &x, &y);
-    const int child = x > 0.5 ? 1 : y > 0.5 ? 2 : x + y < 0.5 ? 0 : 3;
-    id = nodes[id].first_child + child;
-  }
+  while (!is_leaf(id)) id = child_at(nodes[id], u, v);
   return id;
 }
 
+// The child that holds a point of the root triangle.
+NodeId Forest::child_at(const Node& node, double u, double v) const {
+  double x, y;
+  element_coordinates(node, u, v, &x, &y);
+  return node.first_child + (x > 0.5 ? 1 : y > 0.5 ? 2 : x + y < 0.5 ? 0 : 3);
+}
+
+NodeId Forest::root_met(const Hit& hit) const {
+  return hit.patch < 0 ? -1 : root(hit.patch, hit.back ? 1 : 0);
+}
+
 NodeId Forest::leaf_met(const Hit& hit) const {
-  const NodeId met = hit.patch < 0 ? -1 : root(hit.patch, hit.back ? 1 : 0);
+  const NodeId met = root_met(hit);
   if (met < 0) return -1;
   return hit.back ? leaf_at(met, hit.v, hit.u) : leaf_at(met, hit.u, hit.v);
+}
+
+void Forest::leaves_met(Span<const Hit> hits, NodeId* leaves) const {
+  size_t going_down[most_met], count = 0;
+  for (size_t k = 0; k < hits.size(); ++k) {
+    leaves[k] = root_met(hits[k]);
+    if (leaves[k] < 0) continue;
+    __builtin_prefetch(&nodes[leaves[k]]);
+    going_down[count++] = k;
+  }
+  // All of them by one level.
+  while (count > 0) {
+    size_t left = 0;
+    for (size_t at = 0; at < count; ++at) {
+      const size_t k = going_down[at];
+      const Node& node = nodes[leaves[k]];
+      if (node.first_child < 0) continue;
+      const Hit& hit = hits[k];
+      leaves[k] = hit.back ? child_at(node, hit.v, hit.u) : child_at(node, hit.u, hit.v);
+      __builtin_prefetch(&nodes[leaves[k]]);
+      going_down[left++] = k;
+    }
+    count = left;
+  }
 }
 
 double Forest::total_area() const {

@@ -105,6 +105,9 @@ class Forest {
   NodeId leaf_at(NodeId root, double u, double v) const;
   // The leaf that a ray has met, -1 where nothing that exchanges light on that side was met.
   NodeId leaf_met(const Hit& hit) const;
+  // The same of many, which don't wait for memory one after the other.
+  static constexpr size_t most_met = 16;
+  void leaves_met(Span<const Hit> hits, NodeId* leaves) const;
   // All leaves in key order (patch, side, path).
   std::vector<NodeId> leaves() const;
 
@@ -114,6 +117,8 @@ class Forest {
   ClusterTree clusters;
 
  private:
+  NodeId root_met(const Hit& hit) const;
+  NodeId child_at(const Node& node, double u, double v) const;
   std::vector<int32_t> first_surface_;  // per patch, -1 when it exchanges nothing
 };
 

@@ -38,52 +38,74 @@ class RowTracer {
     const int most = node.exposed < 1 ? 64 * wanted : wanted;
     hits_.clear();
     int counted = 0;
-    int64_t rays = 0;
     for (int k = 0; k < most && counted < wanted; ++k) {
       double p[4];
       points.point(static_cast<uint32_t>(k), p);
-      double x, y;
-      even_in_triangle(p[0], p[1], &x, &y);
-      const Vec3 on = corners.at(x, y);
+      Ray ray;
+      even_in_triangle(p[0], p[1], &ray.x, &ray.y);
+      const Vec3 on = corners.at(ray.x, ray.y);
       if (node.exposed < 1 && tools_.exposure.sealed(surface.patch, surface.side, on)) continue;
       ++counted;
-      ++rays;
-      const Hit hit = tools_.engine.nearest(on + surface.normal * tools_.engine.offset(),
-                                            frame.cosine_direction(p[2], p[3]), 0);
-      const NodeId source = forest.leaf_met(hit);
-      if (source < 0) continue;
-      // Light from there to this leaf has links of its own.
-      const int32_t emitter = grid_.emitters().of_node(forest.nodes[source].surface);
-      if (emitter >= 0) {
-        double u, v;
-        root_coordinates(node, x, y, &u, &v);
-        const NodeId leaf = forest.leaf_at(node.surface, u, v);
-        const bool known = settings_.means_only ? forest.nodes[leaf].exposed > 0
-                                                : state_.direct.of_leaf[leaf][0] >= 0;
-        const OrientedPoint middle = middle_of(forest, leaf);
-        if (known && grid_.by_links(emitter, middle, grid_.at(middle))) continue;
-      }
-      if (forest.nodes[source].exposed < 1 &&
-          tools_.exposure.under_a_back(hit.patch, hit.back,
-                                       forest.scene->triangle(hit.patch).at(hit.u, hit.v)))
-        continue;
-      hits_.push_back(source);
+      met_[together_] = tools_.engine.nearest(on + surface.normal * tools_.engine.offset(),
+                                              frame.cosine_direction(p[2], p[3]), 0);
+      ray_[together_++] = ray;
+      if (together_ == Forest::most_met) take_hits(node);
     }
+    take_hits(node);
     std::sort(hits_.begin(), hits_.end());
     for (size_t k = 0; k < hits_.size();) {
       const size_t first = k;
       while (k < hits_.size() && hits_[k] == hits_[first]) ++k;
       links.push_back({hits_[first], static_cast<float>(static_cast<double>(k - first) / counted)});
     }
-    return rays;
+    return counted;
   }
 
  private:
+  struct Ray {
+    double x, y;  // where in the element it begins
+  };
+
+  // The links of the rays that have been traced since the last time.
+  void take_hits(const Node& node) {
+    const Forest& forest = state_.forest;
+    NodeId source[Forest::most_met];
+    forest.leaves_met({met_, together_}, source);
+    for (size_t k = 0; k < together_; ++k)
+      if (source[k] >= 0 && !comes_by_links(node, ray_[k], source[k]) &&
+          !is_under_a_back(met_[k], source[k]))
+        hits_.push_back(source[k]);
+    together_ = 0;
+  }
+
+  // Light from there to this leaf has links of its own.
+  bool comes_by_links(const Node& node, const Ray& ray, NodeId source) const {
+    const Forest& forest = state_.forest;
+    const int32_t emitter = grid_.emitters().of_node(forest.nodes[source].surface);
+    if (emitter < 0) return false;
+    double u, v;
+    root_coordinates(node, ray.x, ray.y, &u, &v);
+    const NodeId leaf = forest.leaf_at(node.surface, u, v);
+    const bool known =
+        settings_.means_only ? forest.nodes[leaf].exposed > 0 : state_.direct.of_leaf[leaf][0] >= 0;
+    const OrientedPoint middle = middle_of(forest, leaf);
+    return known && grid_.by_links(emitter, middle, grid_.at(middle));
+  }
+
+  bool is_under_a_back(const Hit& hit, NodeId source) const {
+    return state_.forest.nodes[source].exposed < 1 &&
+           tools_.exposure.under_a_back(hit.patch, hit.back,
+                                        state_.forest.scene->triangle(hit.patch).at(hit.u, hit.v));
+  }
+
   const State& state_;
   const StageTools& tools_;
   const RowSettings& settings_;
   const LightGrid& grid_;
   std::vector<NodeId> hits_;
+  Hit met_[Forest::most_met];
+  Ray ray_[Forest::most_met];
+  size_t together_ = 0;
 };
 
 // rows: of the cells from `first` on.

@@ -85,7 +85,8 @@ void scrambling_keeps_the_tree() {
   for (uint32_t seed = 1; seed < 300; ++seed)
     for (int bit = 0; bit < 32; ++bit) {
       const uint32_t x = static_cast<uint32_t>(mix(seed, static_cast<uint64_t>(bit)));
-      const uint32_t a = owen_scrambled(x, seed), b = owen_scrambled(x ^ (1u << bit), seed);
+      const uint32_t a = owen_scrambled(reversed_bits(x), seed);
+      const uint32_t b = owen_scrambled(reversed_bits(x ^ (1u << bit)), seed);
       CHECK_EQUAL((a ^ b) >> bit, 1u);
     }
 }

@@ -158,6 +158,34 @@ void leaf_at_finds_the_leaf_around_a_point() {
   }
 }
 
+// Of any number of hits side by side as of each alone, those that meet nothing among them.
+void leaves_are_met_together_as_one_by_one() {
+  const Scene scene = three_triangles();
+  Forest forest(scene);
+  split_unevenly(forest, 9);
+  for (size_t count = 0; count <= Forest::most_met; ++count)
+    for (uint64_t draw = 0; draw < 50; ++draw) {
+      std::vector<Hit> hits(count);
+      size_t of_nothing = 0;
+      for (size_t k = 0; k < count; ++k) {
+        const uint64_t h = mix(draw, count, k);
+        Hit& hit = hits[k];
+        hit.patch = static_cast<int64_t>(mix(h, 1) % (scene.patch_count() + 1)) - 1;
+        hit.back = mix(h, 2) & 1;
+        hit.u = unit_interval(mix(h, 3));
+        hit.v = unit_interval(mix(h, 4)) * (1 - hit.u);
+        of_nothing += hit.patch < 0;
+      }
+      std::vector<NodeId> leaves(count, -7);
+      forest.leaves_met({hits.data(), count}, leaves.data());
+      for (size_t k = 0; k < count; ++k) {
+        CHECK_EQUAL(leaves[k], forest.leaf_met(hits[k]));
+        of_nothing -= hits[k].patch < 0 && leaves[k] == -1;
+      }
+      CHECK_EQUAL(of_nothing, size_t{0});
+    }
+}
+
 // Order of keys: patch, side, path from the root; the leaves cover every surface once.
 void leaves_come_in_key_order() {
   const Scene scene = three_triangles();
@@ -250,6 +278,7 @@ int main() {
       HRAD_TEST(neighbours_share_their_corners),
       HRAD_TEST(the_deepest_level_fits_the_lattice),
       HRAD_TEST(leaf_at_finds_the_leaf_around_a_point),
+      HRAD_TEST(leaves_are_met_together_as_one_by_one),
       HRAD_TEST(leaves_come_in_key_order),
       HRAD_TEST(keys_are_unique),
       HRAD_TEST(keys_do_not_depend_on_the_order_of_splitting),
