@@ -15,20 +15,12 @@ fi
 
 # link_fortran PROGRAM SOURCE...: every warning is an error.
 link_fortran() {
-  local program=$1 compiler embree flags hwloc
+  local program=$1 compiler flags library
   shift
   compiler=$(sed -n 's/^CMAKE_Fortran_COMPILER:[A-Z]*=//p' "$HRAD_BINARY_DIR/CMakeCache.txt")
   # The flags of this build, so that a library built with a sanitizer links as well.
   read -r -a flags <<<"$(sed -n 's/^CMAKE_C_FLAGS:STRING=//p' "$HRAD_BINARY_DIR/CMakeCache.txt")"
-  read -r -a hwloc <<<"$(pkg-config --libs hwloc zlib)"
-  for embree in '' -lembree3 -lembree4; do
-    if "$compiler" -std=f2008 -O2 -Wall -Wextra -Werror "${flags[@]}" \
-      -I"$HRAD_BINARY_DIR/bindings/fortran/mod" "$@" -o "$program" \
-      "$HRAD_BINARY_DIR/bindings/fortran/libhrad_fortran.a" "$HRAD_BINARY_DIR/lib/libhrad.a" \
-      "${hwloc[@]}" -lstdc++ -lm -pthread $embree 2>errors; then
-      return
-    fi
-  done
-  cat errors
-  return 1
+  library=$(PKG_CONFIG_PATH=$HRAD_BINARY_DIR/pkgconfig pkg-config --cflags --libs --static hrad-fortran)
+  read -r -a library <<<"$library"
+  "$compiler" -std=f2008 -O2 -Wall -Wextra -Werror "${flags[@]}" "$@" -o "$program" "${library[@]}"
 }

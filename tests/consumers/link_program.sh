@@ -3,15 +3,10 @@
 # the README, in the current folder.
 
 link_program() {
-  local flags libraries embree
+  local flags library
   # The flags of this build, so that a library built with a sanitizer links as well.
   read -r -a flags <<<"$(sed -n 's/^CMAKE_C_FLAGS:STRING=//p' "$HRAD_BINARY_DIR/CMakeCache.txt")"
-  read -r -a libraries <<<"$(pkg-config --libs hwloc zlib)"
-  for embree in '' -lembree3 -lembree4; do
-    cc -std=c99 -pedantic -Wall -Wextra -Werror "${flags[@]}" -I"$HRAD_SOURCE_DIR/include" program.c \
-      "$HRAD_BINARY_DIR/lib/libhrad.a" "${libraries[@]}" -lstdc++ -lm -pthread $embree 2>errors &&
-      return
-  done
-  cat errors >&2
-  return 1
+  library=$(PKG_CONFIG_PATH=$HRAD_BINARY_DIR/pkgconfig pkg-config --cflags --libs --static hrad)
+  read -r -a library <<<"$library"
+  cc -std=c99 -pedantic -Wall -Wextra -Werror "${flags[@]}" program.c "${library[@]}"
 }

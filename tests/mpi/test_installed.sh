@@ -73,6 +73,40 @@ for how in component behind neither; do
   [[ $how == neither ]] || mpirun -n 1 "cmake-$how/program"
 done
 
+# The README's program in Fortran, over several processes by what it says of them: found by pkg-config
+# and by CMake's component.
+if [[ -n $(find after -name hrad-fortran-mpi.pc) ]]; then
+  # shellcheck disable=SC2016  # fences of Markdown
+  sed -n '/^```fortran$/,/^```$/p' "$HRAD_SOURCE_DIR/README.md" | sed '1d;$d' |
+    sed -e 's/^  use hrad$/  use mpi\n  use hrad\n  use hrad_mpi/' \
+      -e 's/^  integer :: status$/  integer :: status, level, error/' \
+      -e 's/call hrad_create(solver)/call mpi_init_thread(MPI_THREAD_FUNNELED, level, error)\n  call hrad_create_mpi(MPI_COMM_WORLD, solver)/' \
+      -e 's/call hrad_destroy(solver)/&\n  call mpi_finalize(error)/' >heat.f90
+  [[ $(grep -c mpi heat.f90) == 5 ]]
+  read -r -a flags <<<"$(pkg-config --cflags --libs --static hrad-fortran-mpi)"
+  mpifort -Wall -Wextra -Werror heat.f90 -o heat "${flags[@]}"
+  mpirun -n 2 ./heat >said
+  [[ $(grep -c '^emitted ' said) == 2 && $(sort -u said | wc -l) == 1 ]]
+  mkdir fortran
+  cat >fortran/CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.18)
+project(heat LANGUAGES C Fortran)
+find_package(hrad REQUIRED COMPONENTS ${WANTED})
+find_package(MPI REQUIRED COMPONENTS Fortran)
+add_executable(heat ../heat.f90)
+target_link_libraries(heat PRIVATE hrad::fortran_mpi MPI::MPI_Fortran)
+END
+  cmake -S fortran -B fortran-found -DWANTED=fortran_mpi -DCMAKE_PREFIX_PATH="$folder/after" >configured ||
+    { cat configured && exit 1; }
+  cmake --build fortran-found >built || { cat built && exit 1; }
+  mpirun -n 2 fortran-found/heat | diff - said
+  if cmake -S fortran -B fortran-refused -DWANTED=fortan -DCMAKE_PREFIX_PATH="$folder/after" >configured 2>&1; then
+    echo "a component that there is not was found" >&2
+    exit 1
+  fi
+  tr -s ' \n' ' ' <configured | grep -q 'no component fortan: there are mpi, fortran and fortran_mpi'
+fi
+
 # A build without MPI has none of it, and says so to who asks.
 cmake -S "$HRAD_SOURCE_DIR" -B without -DHRAD_TESTS=OFF -DHRAD_EMBREE=OFF -DHRAD_MPI=OFF \
   -DCMAKE_INSTALL_PREFIX="$folder/prefix" >configured || { cat configured && exit 1; }
