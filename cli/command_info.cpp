@@ -148,6 +148,8 @@ void append_text(std::string* text, const std::string& scene, const SceneReport&
                        short_text(material.area, digits), flags_text(material.flags)});
   }
   *text += "\n" + materials.text();
+  if (report.own_emission > 0)
+    *text += std::to_string(report.own_emission) + " patches have an emission of their own\n";
 
   TextTable table("lll");
   table.add_row({"", "PARAMETER", "VALUE"});
@@ -193,6 +195,7 @@ void append_json(std::string* text, const std::string& scene, const SceneReport&
   json.field("two_sided", report.two_sided);
   json.field("blockers", report.blockers);
   json.field("emitters", report.emitters);
+  json.field("own_emission", report.own_emission);
   json.field("unit", report.unit);
   json.field("lower", report.lower, 3);
   json.field("upper", report.upper, 3);

@@ -4,7 +4,8 @@
 _hrad_commands='solve export render query info check partition scene machine params'
 _hrad_run_options='--help --accuracy --threads --set --two-sided --flip --mpi --quiet --verbose'
 _hrad_params='bands accuracy linking detail oracle bf_epsilon min_area tolerance max_iterations refine seed
-  unit visibility sides threads smt bind partition max_memory resumable checkpoint_keep instruction_set'
+  unit visibility sides threads smt bind partition max_memory resumable checkpoint_keep up
+  instruction_set'
 
 _hrad_options() {  # of a command
   case $1 in

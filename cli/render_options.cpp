@@ -108,9 +108,9 @@ void RenderOptions::check_colours() {
          "x" + std::to_string(least.height) + ", and a picture not much higher than wide");
 }
 
-Camera RenderOptions::camera(const Geometry& geometry, bool built_in) const {
+Camera RenderOptions::camera(const Geometry& geometry, int32_t up) const {
   const PictureSize size = view_size(picture_);
-  int up_axis = find_up_axis(geometry, built_in);
+  int up_axis = find_up_axis(geometry, up);
   if (up_)
     for (int axis = 0; axis < 3; ++axis)
       if (std::fabs(component(*up_, axis)) > std::fabs(component(*up_, up_axis))) up_axis = axis;

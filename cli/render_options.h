@@ -17,7 +17,7 @@ class RenderOptions {
 
   const PictureOptions& picture() const { return picture_; }
   // What was not asked for is chosen. Failure (usage) when a camera asked for sees nothing.
-  Camera camera(const Geometry& geometry, bool built_in) const;
+  Camera camera(const Geometry& geometry, int32_t up) const;
 
  private:
   void check_camera();

@@ -48,8 +48,10 @@ void count_patch(const hrad_patch& patch, const double* emission, SceneReport* r
   }
   const auto material = static_cast<size_t>(patch.material);
   if (patch.material < 0 || material >= report->materials.size()) return;
-  ++report->materials[material].patches;
-  report->materials[material].area += patch.area;
+  MaterialReport& its = report->materials[material];
+  ++its.patches;
+  its.area += patch.area;
+  report->own_emission += !std::equal(its.emission.begin(), its.emission.end(), emission);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct MaterialReport {
 
 struct SceneReport {
   int64_t patches = 0, dropped = 0, two_sided = 0, blockers = 0, emitters = 0;
+  int64_t own_emission = 0;  // patches whose emission is not that of their material
   double lower[3] = {0, 0, 0}, upper[3] = {0, 0, 0};  // the box around what is not dropped
   double area = 0;                                    // of one side
   std::vector<double> power;                          // emitted, W per band, all sides

@@ -219,6 +219,13 @@ std::string Session::parameter(const char* name) const {
   });
 }
 
+int32_t Session::up_axis() const {
+  hrad_stats stats{};
+  stats.struct_size = sizeof stats;
+  check(hrad_get_stats(solver_, &stats));
+  return stats.up_axis;
+}
+
 std::vector<std::string> Session::diagnostics() const {
   std::vector<std::string> result;
   int64_t needed = 0;

@@ -39,8 +39,10 @@ module hrad_patches
 
   ! hrad_set_emission(solver, first_patch, emission [, status]) sets emission(bands, count), in W/m2
   ! (0, or 1e-30 to 1e30), of the patches from first_patch (from 1; default integer or int64) on.
-  ! Also after a solve: mesh and links stay, and the next hrad_solve starts from B = E. Errors:
-  ! ARGUMENT for a wrong shape, range or value; STATE for a blocker with emission.
+  ! Also after a solve: the next hrad_solve then starts from B = E, with refine = 0 on the mesh and
+  ! the links as they are; until then queries answer with the new values and the irradiance that
+  ! was solved for. Errors: ARGUMENT for a wrong shape, range or value; STATE for a blocker with
+  ! emission.
   interface hrad_set_emission
     module procedure set_emission_32, set_emission_64
   end interface hrad_set_emission

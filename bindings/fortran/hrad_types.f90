@@ -66,7 +66,7 @@ module hrad_types
     integer(c_int32_t) :: converged = 0    ! 1 when the last solve returned HRAD_OK
     integer(c_int32_t) :: ranks = 0
     integer(c_int32_t) :: threads = 0      ! of this rank
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: up_axis = 0      ! of the scene: 1 y, 2 z; 0 where nobody has said
     integer(c_int64_t) :: rounds = 0       ! of refinement
     integer(c_int64_t) :: iterations = 0   ! sweeps
     integer(c_int64_t) :: patches = 0
@@ -85,8 +85,8 @@ module hrad_types
     real(c_double) :: seconds_linking = 0
     real(c_double) :: seconds_iterative = 0
     real(c_double) :: seconds_output = 0
-    real(c_double) :: cpu_seconds = 0          ! user CPU of this process spent in solves
-    integer(c_int64_t) :: memory_peak_bytes = 0 ! of this process
+    real(c_double) :: cpu_seconds = 0          ! user CPU spent in solves, of all ranks
+    integer(c_int64_t) :: memory_peak_bytes = 0 ! of the rank that needed most
     integer(c_int64_t) :: link_bytes = 0
     integer(c_int64_t) :: node_bytes = 0
     integer(c_int64_t) :: messages(3) = 0       ! R, U, T

@@ -167,9 +167,9 @@ bool is_closed_room(const Geometry& geometry, const Box& box) {
 
 }  // namespace
 
-int find_up_axis(const Geometry& geometry, bool built_in) {
+int find_up_axis(const Geometry& geometry, int32_t known) {
   constexpr int y = 1, z = 2;
-  if (built_in) return z;
+  if (known > 0) return known;
   const Vector3 size = geometry.upper - geometry.lower;
   if (size.z > std::min(size.x, size.y)) return y;
   double power_along_z = 0, power = 0;

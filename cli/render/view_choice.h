@@ -10,9 +10,9 @@
 
 namespace hrad::cli {
 
-// The axis, 0, 1 or 2, that points up: z in built-in scenes; y in files, but z where the lamps
-// shine along z and the scene is no higher than wide then.
-int find_up_axis(const Geometry& geometry, bool built_in);
+// The axis, 0, 1 or 2, that points up. known: of the scene, as hrad_stats has it; where nobody has
+// said it is y, but z where the lamps shine along z and the scene is no higher than wide then.
+int find_up_axis(const Geometry& geometry, int32_t known);
 
 // size: of the part of the picture that shows the scene.
 Camera choose_camera(const Geometry& geometry, const PictureSize& size, int up_axis,

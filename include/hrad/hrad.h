@@ -275,8 +275,9 @@ HRAD_API hrad_status hrad_get_diagnostic(const hrad_solver *solver, int64_t inde
 
 /* [C] Sets emission (W/m2: 0, or 1e-30 to 1e30) or reflectance ([0,1)) of `count` patches from `first_patch` on;
  * count*bands values, the bands of a patch side by side. Also after a solve: the next hrad_solve then
- * starts from B = E, with refine = 0 on the mesh and the links as they are. Errors: ARGUMENT for ranges and values; STATE for
- * a blocker with emission. */
+ * starts from B = E, with refine = 0 on the mesh and the links as they are. Until then queries answer
+ * with the new values and the irradiance that was solved for, hrad_power_balance with the old light.
+ * Errors: ARGUMENT for ranges and values; STATE for a blocker with emission. */
 HRAD_API hrad_status hrad_set_emission(hrad_solver *solver, int64_t first_patch, int64_t count,
                                        const double *emission);
 HRAD_API hrad_status hrad_set_reflectance(hrad_solver *solver, int64_t first_patch, int64_t count,
@@ -367,7 +368,7 @@ typedef struct hrad_stats {
   size_t struct_size;
   int32_t converged;          /* 1 when the last solve returned HRAD_OK */
   int32_t ranks, threads;     /* threads of this rank; rays to pairs below are those of all ranks */
-  int32_t reserved;           /* 0 */
+  int32_t up_axis;            /* of the scene: 1 y, 2 z (parameter `up`); 0 where nobody has said */
   int64_t rounds, iterations; /* refinement rounds; sweeps */
   int64_t patches, elements, leaves, links; /* elements: all nodes of the hierarchy */
   int64_t rays;               /* visibility, exposure and measuring rays together */
@@ -469,8 +470,10 @@ HRAD_API hrad_status hrad_lock_checkpoint(hrad_solver *solver, const char *path)
 
 /* [C] Reads a checkpoint: the solver is then as the one that wrote it was, with the same hash, and
  * hrad_solve goes on to the same bits as without a stop. The result parameters become those of the file,
- * the run parameters stay. A solver that has patches must have the same scene: this is how a program
- * makes sure that a file belongs to its scene. Everything in the file is checked before it is used.
+ * the run parameters stay: so refine is what it was when the file was written. A solver that has patches
+ * must have the same scene, present emission and reflectance included: this is how a program makes
+ * sure that a file belongs to its scene. An empty one takes all from the file; hrad_query_patches then
+ * tells the emission. Everything in the file is checked before it is used.
  * Errors: FILE; FORMAT for a file that is damaged or none of these, with section and byte; STATE for
  * another scene, with the first difference; MEMORY when it holds more than max_memory. The solver is
  * then as it was. */

@@ -92,6 +92,7 @@ hrad_status hrad_get_stats(const hrad_solver* solver, hrad_stats* stats) {
     full.ranks = from.ranks;
     full.threads = from.threads;
     full.rounds = from.rounds;
+    full.up_axis = from.up_axis;
     full.iterations = from.iterations;
     full.patches = from.patches;
     full.elements = from.elements;

@@ -24,7 +24,7 @@ enum PatchFlags : uint8_t { patch_dropped = 1, patch_two_sided = 2, patch_blocke
 
 struct Scene {
   int bands = 3;
-  bool z_up = false;  // known to stand upright along z; nothing is known otherwise
+  bool z_up = false;  // stands upright along z; y is up otherwise, or nothing is known
   std::vector<Vec3> vertices;
   std::vector<Material> materials;
   // Per patch:

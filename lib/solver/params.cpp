@@ -91,6 +91,10 @@ constexpr ParamRow kTable[] = {
     int_row(
         "checkpoint_keep", false, &Params::checkpoint_keep, 0, 1000, "files",
         "How many older checkpoints stay beside a new one, as FILE.prev, FILE.prev2 and so on."),
+    text_row("up", false, &Params::up, "auto|y|z",
+             "Axis that points up, in pictures and .glb files; auto takes z with a built-in scene, "
+             "with patches from arrays and with a file that says so, and stays for other files, "
+             "which are taken to have y up unless their lamps tell otherwise."),
     text_row("instruction_set", false, &Params::instruction_set, "auto|sse2|avx2|avx512",
              "Instruction set of the builtin ray engine; every one gives the same bits."),
 };

@@ -33,6 +33,7 @@ struct Params {
   int64_t max_memory = 0;                // bytes; 0: no limit
   int64_t resumable = 0;                 // 1: linking and refinement remember their steps
   int64_t checkpoint_keep = 1;           // older checkpoints kept beside a new one
+  std::string up = "auto";               // auto | y | z
   std::string instruction_set = "auto";  // auto | sse2 | avx2 | avx512: forces the ray kernels
 };
 

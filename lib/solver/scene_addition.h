@@ -33,6 +33,7 @@ class SceneAddition {
         vertices_(scene.vertices.size()),
         materials_(scene.materials.size()),
         patches_(scene.corners.size()),
+        z_up_(scene.z_up),
         diagnostics_(scene.diagnostics) {}
   ~SceneAddition() {
     if (kept_) return;
@@ -44,6 +45,7 @@ class SceneAddition {
     scene_.flags.resize(patches_);
     scene_.emission.resize(patches_ * static_cast<size_t>(scene_.bands));
     scene_.reflectance.resize(patches_ * static_cast<size_t>(scene_.bands));
+    scene_.z_up = z_up_;
     scene_.diagnostics.swap(diagnostics_);
   }
   SceneAddition(const SceneAddition&) = delete;
@@ -55,6 +57,7 @@ class SceneAddition {
  private:
   Scene& scene_;
   const size_t vertices_, materials_, patches_;
+  const bool z_up_;
   std::vector<std::string> diagnostics_;
   bool kept_ = false;
 };

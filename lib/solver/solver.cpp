@@ -175,6 +175,7 @@ Stats Solver::stats() const {
 Stats Solver::counts() const {
   Stats s = stats_;
   s.patches = scene_.patch_count();
+  s.up_axis = scene_.z_up ? 2 : params_.up == "y" ? 1 : 0;
   s.memory_peak_bytes = peak_memory();
   if (!solution_) return s;
   const Solution& solution = *solution_;

@@ -126,6 +126,7 @@ class Solver {
   Stats counts() const;  // stats() with what has been measured already
   const class Reconstruction& reconstruction() const;
   void require_open() const;  // the scene may still grow
+  void set_up_axis();         // of a scene that has just changed, where the parameter says
   void check_arrays(int64_t n_vertices, const double* xyz, int64_t n_triangles,
                     const int64_t* vertex) const;
   void add_patches_here(int64_t n_vertices, const double* xyz, int64_t n_triangles,

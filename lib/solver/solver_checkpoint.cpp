@@ -159,6 +159,7 @@ void Solver::read_checkpoint(const std::string& path) {
     throw;
   }
   begun_ = begun;
+  set_up_axis();
   stats_.seconds_load =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -71,6 +71,11 @@ void Solver::set_text(const std::string& name, const std::string& value) {
   params_ = std::move(next);
   scene_.bands = static_cast<int>(params_.bands);
   if (solution_) solution_->state.memory.set_limit(params_.max_memory);
+  set_up_axis();
+}
+
+void Solver::set_up_axis() {
+  if (params_.up != "auto") scene_.z_up = params_.up == "z";
 }
 
 }  // namespace hrad

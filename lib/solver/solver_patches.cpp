@@ -114,6 +114,9 @@ void Solver::add_patches_here(int64_t n_vertices, const double* xyz, int64_t n_t
   comm_->all_go_on();
   warn(diagnostics);
   addition.keep();
+  // As engineers have it; files of pictures have y.
+  if (addition.first_patch() == 0) scene_.z_up = true;
+  set_up_axis();
 }
 
 }  // namespace hrad

@@ -115,6 +115,7 @@ void Solver::load_scene(const std::string& path) {
   if (scene_.patch_count() > 0 && !any_emitter(scene_) && describes_scene())
     log_.write(Log::warning, no_emitter);
   addition.keep();
+  set_up_axis();
 }
 
 void Solver::make_scene(const std::string& name) {
@@ -131,6 +132,7 @@ void Solver::make_scene(const std::string& name) {
   check_memory(made, params_.max_memory);
   comm_->all_go_on();
   scene_ = std::move(made);
+  set_up_axis();
   warn(0);
 }
 

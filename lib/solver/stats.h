@@ -8,6 +8,7 @@ namespace hrad {
 struct Stats {
   bool converged = false;
   int32_t ranks = 1, threads = 1;
+  int32_t up_axis = 0;  // 1 y, 2 z, 0 where nobody has said
   int64_t rounds = 0, iterations = 0;
   int64_t patches = 0, elements = 0, leaves = 0, links = 0;
   int64_t rays = 0, pairs = 0;

@@ -112,7 +112,7 @@ void reference_take_apart(const hrad_patch *patch, const hrad_rank_load *load,
   *to++ = stats->converged;
   *to++ = stats->ranks;
   *to++ = stats->threads;
-  *to++ = stats->reserved;
+  *to++ = stats->up_axis;
   *to++ = (double)stats->rounds;
   *to++ = (double)stats->iterations;
   *to++ = (double)stats->patches;

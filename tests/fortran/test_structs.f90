@@ -27,7 +27,7 @@ program test_structs
   load = hrad_rank_load(patches=1, work=2d0, lower=[3d0, 4d0, 5d0], upper=[6d0, 7d0, 8d0], &
     remote=9d0)
 
-  stats = hrad_stats(converged=1, ranks=2, threads=3, reserved=4, rounds=5, iterations=6, &
+  stats = hrad_stats(converged=1, ranks=2, threads=3, up_axis=4, rounds=5, iterations=6, &
     patches=7, elements=8, leaves=9, links=10, rays=11, pairs=12, area=13d0, sealed_area=14d0, &
     back_share=15d0, error_estimate=16d0, error_standard_error=17d0, seconds_load=18d0, &
     seconds_initial=19d0, seconds_linking=20d0, seconds_iterative=21d0, seconds_output=22d0, &

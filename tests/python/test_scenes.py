@@ -146,6 +146,30 @@ class Arrays(support.Case):
         self.assert_misfit("reflectance", solver.set_reflectance, 0, [[1, 0, 0]])
         self.assertRaises(TypeError, solver.set_emission, 0.5, [[1, 2, 3]])
 
+    def test_the_tool_tells_of_emission_that_is_no_materials(self):
+        self.add_square()
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "square.hrad")
+            for count in (0, 1):
+                self.solver.set_emission(0, np.full((count, 3), 7.0))
+                self.solver.write_checkpoint(path)
+                self.assertEqual(support.hrad_json("info", path)["own_emission"], count)
+                self.assertEqual("emission of their own" in support.hrad_tool("info", path), count > 0)
+
+    def test_arrays_have_z_up(self):
+        self.assertEqual(self.solver.get_stats().up_axis, 0)
+        self.add_square()
+        self.assertEqual(self.solver.get_stats().up_axis, 2)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "square.hrad")
+            for axis, up in ((1, "y"), (2, "z")):
+                self.solver["up"] = up
+                self.assertEqual(self.solver.get_stats().up_axis, axis)
+                self.solver.write_checkpoint(path)
+                with hrad.Solver() as reader:
+                    reader.read_checkpoint(path)
+                    self.assertEqual(reader.get_stats().up_axis, axis - 1 if up == "y" else axis)
+
     def test_out_arrays_that_do_not_fit(self):
         self.add_square()
         fixed = np.zeros((2, 3))

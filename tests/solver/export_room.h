@@ -67,6 +67,7 @@ inline const Solver& solved() {
   static const std::unique_ptr<Solver> solver = [] {
     auto s = std::make_unique<Solver>();
     make_room(*s);
+    s->set_text("up", "y");
     CHECK(static_cast<int>(s->solve()) >= 0);
     return s;
   }();

@@ -164,7 +164,7 @@ void glb_holds_the_mesh() {
   constexpr size_t stride = 4 * (3 + 3 + 3 + bands);
   CHECK(contains(glb.json, "\"byteStride\":44"));
   CHECK(contains(glb.json, "\"_RADIOSITY\":3"));
-  CHECK(!contains(glb.json, "rotation"));  // of such a scene it is not known what is up
+  CHECK(!contains(glb.json, "rotation"));  // its parameter says that y is up
   const size_t indices = stride * mesh.vertex_count();
   CHECK_EQUAL(glb.binary.size(), indices + 12 * mesh.triangle_count());
   for (int64_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -190,6 +190,7 @@ std::string json_of_triangle(Vec3 at, const char* unit, int n_bands) {
   solver.set_int("bands", n_bands);
   solver.set_text("unit", unit);
   solver.set_text("linking", "pairs");  // one leaf
+  solver.set_text("up", "y");           // as glTF has it
   const std::vector<double> values(static_cast<size_t>(n_bands), 0.5);
   solver.add_material({"lamp", values, values, false, false});
   const double xyz[] = {at.x, at.y, at.z, at.x + 1, at.y, at.z, at.x, at.y + 1, at.z};
@@ -230,6 +231,18 @@ void built_in_scenes_stand_upright() {
   solver.set_double("accuracy", 0.3);
   CHECK(static_cast<int>(solver.solve()) >= 0);
   CHECK(contains(exported_glb(solver).json, "\"rotation\":[-0.707"));
+  solver.set_text("up", "y");
+  CHECK(!contains(exported_glb(solver).json, "rotation"));
+  // As arrays do of which nothing is said.
+  Solver of_arrays;
+  CHECK_EQUAL(of_arrays.stats().up_axis, 0);
+  of_arrays.add_material({"lamp", {0.5, 0.5, 0.5}, {1, 1, 1}, false, false});
+  const double xyz[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const int64_t corners[] = {0, 1, 2};
+  of_arrays.add_patches(3, xyz, 1, corners, nullptr);
+  CHECK_EQUAL(of_arrays.stats().up_axis, 2);
+  CHECK(static_cast<int>(of_arrays.solve()) >= 0);
+  CHECK(contains(exported_glb(of_arrays).json, "\"rotation\":[-0.707"));
 }
 
 void what_exchanges_nothing_has_no_mesh() {

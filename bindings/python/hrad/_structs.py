@@ -36,7 +36,7 @@ class CProgress(ctypes.Structure):
 
 class CStats(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("converged", c_int32), ("ranks", c_int32),
-                ("threads", c_int32), ("reserved", c_int32), ("rounds", c_int64),
+                ("threads", c_int32), ("up_axis", c_int32), ("rounds", c_int64),
                 ("iterations", c_int64), ("patches", c_int64), ("elements", c_int64),
                 ("leaves", c_int64), ("links", c_int64), ("rays", c_int64), ("pairs", c_int64),
                 ("area", c_double), ("sealed_area", c_double), ("back_share", c_double),
@@ -97,6 +97,7 @@ class Stats(NamedTuple):
     converged: int  # 1 when the last solve returned hrad.OK
     ranks: int
     threads: int  # of this rank; rays to pairs below are those of all ranks
+    up_axis: int  # of the scene: 1 y, 2 z; 0 where nobody has said
     rounds: int  # of refinement
     iterations: int  # sweeps
     patches: int
