@@ -67,6 +67,11 @@ CheckpointPlan CheckpointOptions::check(const RunOptions& run, const OutputFiles
   if (interval_) plan.interval_seconds = interval_of(*interval_);
   if (keep_) plan.keep = keep_of(*keep_);
   if (time_limit_) plan.time_limit = limit_of(*time_limit_);
+  for (const auto& [name, value] : run.parameters()) {
+    if (name == "checkpoint_keep" && keep_)
+      fail_usage("solve", "--checkpoint-keep and --set checkpoint_keep are one: give it once");
+    if (name == "resumable") plan.resumable = false;
+  }
   const struct {
     const char* name;
     bool given;

@@ -15,7 +15,8 @@ namespace hrad::cli {
 struct CheckpointPlan {
   std::string path;               // "": no checkpoints
   double interval_seconds = 600;  // between two of them
-  int64_t keep = 1;               // older ones
+  std::optional<int64_t> keep;    // older ones; none: as the parameter says
+  bool resumable = true;          // unless the parameter says otherwise
   std::string restart;            // the file to go on from, "": none
   bool restart_auto = false;      // from `path` or one that was kept, if there is one
   double time_limit = 0;          // s; 0: none

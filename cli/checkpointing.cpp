@@ -38,8 +38,8 @@ Checkpointing::Checkpointing(Session* session, CheckpointPlan plan)
 
 void Checkpointing::begin() {
   if (!plan_.path.empty()) {
-    check(hrad_set_int(session_->solver(), "checkpoint_keep", plan_.keep));
-    check(hrad_set_int(session_->solver(), "resumable", 1));
+    if (plan_.keep) check(hrad_set_int(session_->solver(), "checkpoint_keep", *plan_.keep));
+    if (plan_.resumable) check(hrad_set_int(session_->solver(), "resumable", 1));
     check(hrad_lock_checkpoint(session_->solver(), plan_.path.c_str()));
   }
   if (plan_.restart_auto)
@@ -47,6 +47,11 @@ void Checkpointing::begin() {
   else if (!plan_.restart.empty())
     session_->restart(plan_.restart);
   begun_ = true;
+}
+
+void Checkpointing::warn(const std::string& what) const {
+  if (session_->terminal().verbosity() != Verbosity::quiet)
+    session_->terminal().say("warning: " + what);
 }
 
 // False: the file is damaged, and that was said.
@@ -58,7 +63,7 @@ bool Checkpointing::restart_from(const std::string& path) {
     // What is damaged can be told from what belongs to another scene: this is a message of the
     // file.
     if (failure.code() != exit_checkpoint || is_sound(path)) throw;
-    session_->terminal().say("warning: " + std::string(failure.what()));
+    warn(failure.what());
     return false;
   }
 }
@@ -76,8 +81,8 @@ void Checkpointing::restart_automatically() {
   // What is damaged must not take the place of what was kept.
   if (is_there) check(hrad_set_int(session_->solver(), "checkpoint_keep", 0));
   if (previous_is_there && restart_from(previous)) {
-    session_->terminal().say("warning: " + plan_.path + (is_there ? " is damaged" : " is missing") +
-                             ": going on from the older " + previous);
+    warn(plan_.path + (is_there ? " is damaged" : " is missing") + ": going on from the older " +
+         previous);
     return;
   }
   throw Failure(exit_checkpoint,
@@ -155,8 +160,7 @@ void Checkpointing::write_on_the_way() {
   const hrad_status status = hrad_write_checkpoint(session_->solver(), plan_.path.c_str());
   // While there is nothing to keep, the file stays as it is.
   if (status < 0 && status != HRAD_ERROR_STATE)
-    session_->terminal().say("warning: no checkpoint was written: " +
-                             std::string(hrad_error_message()));
+    warn(std::string("no checkpoint was written: ") + hrad_error_message());
   else if (status == HRAD_OK && session_->terminal().verbosity() == Verbosity::verbose)
     session_->terminal().say("wrote " + plan_.path);
   if (status == HRAD_OK) sweeps_written_ = -1;

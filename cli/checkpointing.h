@@ -34,6 +34,7 @@ class Checkpointing {
   void restart_automatically();
   bool restart_from(const std::string& path);
   bool stops(const hrad_progress& progress);
+  void warn(const std::string& what) const;
   bool out_of_time() const;
   void write();
   void write_on_the_way();

@@ -48,7 +48,7 @@ std::vector<ParameterValue> parameter_values(const Session& session) {
 // What is known of a solution in a file besides its scene.
 struct SolutionReport {
   std::vector<std::pair<std::string, std::string>> description;  // of the library
-  bool is_solved = false;
+  bool is_solved = false, is_measured = false;
   std::string hash;
   std::vector<double> emitted, absorbed, absorbed_back, escaped;  // W per band
   hrad_stats stats{};
@@ -73,8 +73,12 @@ SolutionReport make_solution_report(Session* session, const std::string& path) {
   const auto bands = static_cast<size_t>(session->bands());
   for (auto* power : {&report.emitted, &report.absorbed, &report.absorbed_back, &report.escaped})
     power->resize(bands);
-  check(hrad_power_balance(session->solver(), report.emitted.data(), report.absorbed.data(),
-                           report.absorbed_back.data(), report.escaped.data()));
+  const hrad_status status =
+      hrad_power_balance(session->solver(), report.emitted.data(), report.absorbed.data(),
+                         report.absorbed_back.data(), report.escaped.data());
+  // Of a solve that was stopped, or of a light that was followed by another.
+  report.is_measured = status != HRAD_ERROR_STATE;
+  if (report.is_measured) check(status);
   return report;
 }
 
@@ -88,10 +92,13 @@ void append_solution(std::string* text, const SolutionReport& report) {
                        ? "not measured"
                        : short_text(100 * report.stats.error_estimate, 3) + " % +- " +
                              short_text(100 * report.stats.error_standard_error, 3) + " %"});
-    table.add_row({"power emitted", join(report.emitted) + " W"});
-    table.add_row({"absorbed", join(report.absorbed) + " W"});
-    table.add_row({"absorbed by backs", join(report.absorbed_back) + " W"});
-    table.add_row({"escaped", join(report.escaped) + " W"});
+    const auto power = [&](const std::vector<double>& bands) {
+      return report.is_measured ? join(bands) + " W" : "not measured";
+    };
+    table.add_row({"power emitted", power(report.emitted)});
+    table.add_row({"absorbed", power(report.absorbed)});
+    table.add_row({"absorbed by backs", power(report.absorbed_back)});
+    table.add_row({"escaped", power(report.escaped)});
   }
   *text += "\n" + table.text();
 }
@@ -111,10 +118,12 @@ void append_solution(JsonWriter* json, const SolutionReport& report) {
     json->field("state_hash", report.hash);
     const bool measured = report.stats.error_estimate >= 0;
     json->field("error_estimate", measured ? report.stats.error_estimate : NAN);
-    json->field("emitted", report.emitted.data(), bands);
-    json->field("absorbed", report.absorbed.data(), bands);
-    json->field("absorbed_back", report.absorbed_back.data(), bands);
-    json->field("escaped", report.escaped.data(), bands);
+    if (report.is_measured) {
+      json->field("emitted", report.emitted.data(), bands);
+      json->field("absorbed", report.absorbed.data(), bands);
+      json->field("absorbed_back", report.absorbed_back.data(), bands);
+      json->field("escaped", report.escaped.data(), bands);
+    }
   }
   json->end();
 }

@@ -153,6 +153,8 @@ hrad_status Session::solve_until(const StopTest& stops) {
   seconds_before_ +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   terminal_.clear_line();
+  // The one thing that can be out of order here is a parameter, refine=0 before the first solve.
+  if (status == HRAD_ERROR_STATE) throw Failure(exit_usage, hrad_error_message());
   check(status);
   return status;
 }

@@ -51,7 +51,8 @@
  * rays, none is the remainder of the others, and no row of form factors is rescaled.
  *
  * PARAMETERS. Result parameters (bands, accuracy, linking, oracle, thresholds, seed, ...) decide the
- * bits of the result; run parameters (threads, smt, bind, max_memory, ...) never change a bit.
+ * bits of the result; run parameters (threads, smt, bind, max_memory, ...) never change a bit. Those that
+ * say how to compute (threads, smt, bind, partition, instruction_set) hold from hrad_partition on.
  *
  * BITS. The solution and its hash do not depend on the number of ranks or threads or on the
  * processor.
@@ -309,8 +310,8 @@ typedef struct hrad_rank_load {
 
 enum { HRAD_MOST_RANKS = 65536 }; /* that can be planned for */
 
-/* [C] before hrad_partition, [L] after it: plans a partition for `ranks` ranks without starting them: what a cluster would have to do, before
- * it is booked. method: "grid", the paper's uniform grid made tight (Padron et al., Section 3.1), or
+/* [C] before hrad_partition, [L] after it: plans a partition for `ranks` ranks without starting them:
+ * what a cluster would have to do, before it is booked. method: "grid", the paper's uniform grid made tight (Padron et al., Section 3.1), or
  * "cost", halves of equal predicted work. owner: a rank per patch of the scene, 0 for patches that
  * exchange no light; loads: one per rank, struct_size set in the first; either may be NULL. Closes
  * the scene as hrad_partition does. The same for any number of threads. Errors: those of
@@ -318,8 +319,8 @@ enum { HRAD_MOST_RANKS = 65536 }; /* that can be planned for */
 HRAD_API hrad_status hrad_plan_partition(hrad_solver *solver, const char *method, int32_t ranks,
                                          int32_t *owner, hrad_rank_load *loads);
 
-/* [C] or [L] likewise: writes such a plan as a .vtu file for ParaView: the patches with `owner`, `work` (rays, predicted)
- * and `patch` as cell data. Errors: those of hrad_plan_partition; FILE; ARGUMENT for another ending. */
+/* [C] or [L] likewise: writes such a plan as a .vtu file for ParaView: the patches with `owner`, `work`
+ * (rays, predicted) and `patch` as cell data. Errors: those of hrad_plan_partition; FILE; ARGUMENT for another ending. */
 HRAD_API hrad_status hrad_export_partition(hrad_solver *solver, const char *method, int32_t ranks,
                                            const char *path);
 
@@ -355,13 +356,14 @@ HRAD_API hrad_status hrad_set_progress(hrad_solver *solver, hrad_progress_functi
  * new light is measured when hrad_get_stats or hrad_power_balance first asks, which takes longer than
  * the sweeps; the status tells here only whether the sweeps converged.
  * Returns HRAD_OK, HRAD_NOT_CONVERGED, or HRAD_STOPPED (call it again to go on; the queries answer
- * from the last whole round, or STATE when there is none). Errors: SCENE for an empty scene, STATE for
+ * from the last whole round, or STATE when there is none, as when rows are being made anew for another
+ * light or accuracy; hrad_power_balance answers STATE until a solve has come to its end). Errors: SCENE for an empty scene, STATE for
  * refine = 0 without links, UNSUPPORTED for a method that is not in this build, MEMORY; after MEMORY
  * the solution is gone and the scene and the parameters stay. */
 HRAD_API hrad_status hrad_solve(hrad_solver *solver);
 
-/* [L] Asks a running hrad_solve to stop at the next safe point; the flag is taken back when a solve
- * returns. Any thread, async-signal-safe, NULL is fine. */
+/* [L] Asks a running hrad_solve, or else the next one, to stop at the next safe point; the wish is taken
+ * back when a solve returns, however it ends. Any thread, async-signal-safe, NULL is fine. */
 HRAD_API void hrad_request_stop(hrad_solver *solver);
 
 typedef struct hrad_stats {

@@ -15,6 +15,15 @@ void require_ranks(const char* method, int32_t ranks) {
                static_cast<int>(HRAD_MOST_RANKS));
 }
 
+// A plan before the partition makes that first, which all ranks do together; after it each may plan
+// by itself.
+template <class Body>
+hrad_status of_a_plan(hrad_solver* solver, const Body& body) {
+  if (solver && solver->solver.partitioned())
+    return hrad::api::guarded(solver, [&](hrad::Solver& inside) { body(inside, false); });
+  return hrad::api::collective(solver, [&](hrad::Solver& inside) { body(inside, true); });
+}
+
 }  // namespace
 
 hrad_status hrad_partition(hrad_solver* solver) {
@@ -31,10 +40,11 @@ hrad_status hrad_patch_owner(const hrad_solver* solver, int64_t patch, int32_t* 
 
 hrad_status hrad_plan_partition(hrad_solver* solver, const char* method, int32_t ranks,
                                 int32_t* owner, hrad_rank_load* loads) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return of_a_plan(solver, [&](hrad::Solver& inside, bool together) {
     require_ranks(method, ranks);
     if (loads) hrad::api::require_struct_size(loads->struct_size, "hrad_rank_load");
     const hrad::PartitionPlan plan = inside.plan_partition(method, ranks);
+    if (together) inside.comm().all_go_on();
     if (owner) std::copy(plan.owners.begin(), plan.owners.end(), owner);
     if (!loads) return;
     // The caller's structs may be smaller than ours, or larger.
@@ -59,7 +69,7 @@ hrad_status hrad_plan_partition(hrad_solver* solver, const char* method, int32_t
 
 hrad_status hrad_export_partition(hrad_solver* solver, const char* method, int32_t ranks,
                                   const char* path) {
-  return hrad::api::guarded(solver, [&](hrad::Solver& inside) {
+  return of_a_plan(solver, [&](hrad::Solver& inside, bool) {
     require_ranks(method, ranks);
     hrad::api::require(path, "the path of the partition");
     inside.export_partition(method, ranks, path);

@@ -114,7 +114,9 @@ hrad_status hrad_query_sensors(const hrad_solver* solver, int64_t count, const d
 hrad_status hrad_leaf_count(const hrad_solver* solver, int64_t* count) {
   return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require(count, "the place for the count");
-    *count = inside.leaf_count();
+    const int64_t found = inside.leaf_count();
+    inside.comm().all_go_on();
+    *count = found;
   });
 }
 

@@ -43,6 +43,10 @@ std::string FileLock::resolved(const std::string& path) {
 }
 
 FileLock::FileLock(const std::string& path) : name_(lock_name(path)) {
+  if (path.empty()) fail(Status::file, "the path of the checkpoint is empty");
+  struct stat status;
+  if (path.back() == '/' || (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)))
+    fail(Status::file, "%s: cannot lock it: it is a directory", path.c_str());
   const TemporaryNames temporaries(resolved(path));
   for (int attempt = 0; attempt < attempts; ++attempt) {
     constexpr int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;

@@ -209,10 +209,11 @@ void WholeFile::commit_keeping(int older) {
   if (older < 1) return commit();
   const std::string prev = name_of_older(1);
   if (keep_second_name()) {
-    take_place();
+    // At no time is the old content without a name.
     move_older(older);
     if (::rename(second_name_.c_str(), prev.c_str()) != 0) fail_here("keep the old file", errno);
     second_name_.clear();
+    take_place();
   } else {
     move_older(older);
     const bool kept = ::rename(target_.c_str(), prev.c_str()) == 0;

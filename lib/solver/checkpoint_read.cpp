@@ -31,18 +31,17 @@ class Reading {
                   static_cast<long long>(content_.params.bands));
     budget_.take(bytes_of(sizes_), "what the checkpoint holds");
     read_scene();
-    if (sizes_.surfaces > 0) {
+    one(Section::progress, [&](PackedReader& bytes) { unpack_progress(bytes, content_); });
+    if (content_.progress.linked) {
+      // Of a scene in which nothing exchanges light it is empty.
       content_.state = std::make_unique<State>(content_.scene);
       if (content_.state->forest.surface_count() != sizes_.surfaces)
         fail_format(source_.place(Section::sizes), "the scene has %lld surfaces, not %lld",
                     static_cast<long long>(content_.state->forest.surface_count()),
                     static_cast<long long>(sizes_.surfaces));
+    } else if (sizes_.surfaces > 0) {
+      fail_format(source_.place(Section::progress), "it doesn't tell of links that are there");
     }
-    one(Section::progress, [&](PackedReader& bytes) { unpack_progress(bytes, content_); });
-    if (content_.progress.linked != (content_.state != nullptr))
-      fail_format(source_.place(Section::progress), "it %s links that are %s",
-                  content_.progress.linked ? "tells of" : "doesn't tell of",
-                  content_.state ? "there" : "not there");
     const Scene no_scene;
     State none(no_scene);
     State& state = content_.state ? *content_.state : none;

@@ -15,7 +15,6 @@ constexpr int64_t most_nodes = std::numeric_limits<int32_t>::max();
 constexpr int64_t most_links = int64_t{1} << 40;
 constexpr int64_t most = std::numeric_limits<int64_t>::max();
 constexpr double largest = std::numeric_limits<double>::max();
-constexpr size_t longest_text = 4096;
 constexpr int most_rounds = 64;
 
 // The numbers of the section in their order.
@@ -156,7 +155,7 @@ void unpack_params(PackedReader& bytes, Params& params) {
   std::string before;
   std::vector<std::string> names;
   for (int64_t k = 0; k < count; ++k) {
-    const std::string name = bytes.text(longest_text), value = bytes.text(longest_text);
+    const std::string name = bytes.text(longest_param_text), value = bytes.text(longest_param_text);
     if (std::find(names.begin(), names.end(), name) != names.end())
       fail_format(bytes.place(), "parameter '%s' is there twice", name.c_str());
     names.push_back(name);

@@ -15,13 +15,14 @@ void export_scene(const Solver& solver, const std::string& path) {
 struct Format {
   const char* ending;
   void (*write)(const Solver&, const std::string&);
+  bool needs_solution;
 };
 
-constexpr Format formats[] = {{".csv", export_csv},
-                              {".vtu", export_vtu},
-                              {".ply", export_ply},
-                              {".glb", export_glb},
-                              {".obj", export_scene}};
+constexpr Format formats[] = {{".csv", export_csv, true},
+                              {".vtu", export_vtu, true},
+                              {".ply", export_ply, true},
+                              {".glb", export_glb, true},
+                              {".obj", export_scene, false}};
 
 // From the last dot of the file's name on, in lower case; "" without a dot.
 std::string ending_of(const std::string& path) {
@@ -40,6 +41,13 @@ std::string writable_endings() {
 }
 
 }  // namespace
+
+bool needs_solution(const std::string& path) {
+  const std::string ending = ending_of(path);
+  for (const Format& f : formats)
+    if (ending == f.ending) return f.needs_solution;
+  return false;  // it will be refused for its ending
+}
 
 void export_solution(const Solver& solver, const std::string& path) {
   const std::string ending = ending_of(path);

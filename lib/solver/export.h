@@ -15,6 +15,8 @@ struct Scene;
 // ending. ARGUMENT for an ending that names no format, STATE before a solve, FILE, UNSUPPORTED for
 // a solution larger than the format can hold.
 void export_solution(const Solver& solver, const std::string& path);
+// Whether the format of this path shows a solution, and not the scene alone.
+bool needs_solution(const std::string& path);
 
 // One row per leaf, `patch,face,side,x0,...,z2,area,b0,b1,...`: corners, area and mean radiosity
 // per band, every number in the shortest decimal form that reads back as the same double.
@@ -26,6 +28,7 @@ void export_vtu(const Solver& solver, const std::string& path);
 
 // The patches with their owners, and the work that was predicted for each, likewise. ARGUMENT
 // unless the path ends in .vtu.
+void check_partition_file(const std::string& path);  // ARGUMENT for another ending
 void export_partition(const Scene& scene, const PartitionPlan& plan, const std::string& path);
 
 // Polygon file, binary little-endian: a mesh with shared vertices; positions as doubles, linear

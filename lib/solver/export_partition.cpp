@@ -10,9 +10,12 @@
 
 namespace hrad {
 
-void export_partition(const Scene& scene, const PartitionPlan& plan, const std::string& path) {
+void check_partition_file(const std::string& path) {
   if (path.size() < 4 || path.compare(path.size() - 4, 4, ".vtu") != 0)
     fail(Status::argument, "%s: a partition is written as .vtu alone", path.c_str());
+}
+
+void export_partition(const Scene& scene, const PartitionPlan& plan, const std::string& path) {
   std::vector<int64_t> patches;
   for (int64_t patch = 0; patch < scene.patch_count(); ++patch)
     if (scene.exchanges(patch)) patches.push_back(patch);

@@ -236,6 +236,9 @@ void set_param(Params& params, const ParamRow& row, const std::string& value) {
     if (row.choices && !is_choice(row.choices, value))
       fail(Status::argument, "parameter '%s' can't be '%s': allowed is %s", row.name,
            shown(value).c_str(), row.choices);
+    if (value.size() > longest_param_text)
+      fail(Status::argument, "parameter '%s' has %zu bytes: %zu are allowed", row.name,
+           value.size(), longest_param_text);
     params.*row.as_text = value;
   }
 }

@@ -50,6 +50,8 @@ struct ParamRow {
   std::string Params::*as_text;
 };
 
+constexpr size_t longest_param_text = 4096;  // bytes
+
 Span<const ParamRow> param_table();
 const ParamRow& find_param(const std::string& name);  // ARGUMENT, with the nearest name as a hint
 const char* default_text(const ParamRow& row);        // static lifetime

@@ -15,8 +15,9 @@ namespace hrad {
 class ProgressClock {
  public:
   // observer: told of the stages, may be nullptr.
-  ProgressClock(std::function<bool(const Progress&)> sink, WorkObserver* observer)
-      : sink_(std::move(sink)), observer_(observer) {}
+  ProgressClock(std::function<bool(const Progress&)> sink, WorkObserver* observer,
+                std::chrono::steady_clock::time_point start)
+      : sink_(std::move(sink)), observer_(observer), start_(start) {}
 
   // From here on `name` is under way, from `first` to `last` of the whole.
   void begin(const char* name, double first, double last) {
@@ -44,7 +45,7 @@ class ProgressClock {
  private:
   std::function<bool(const Progress&)> sink_;
   WorkObserver* const observer_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const std::chrono::steady_clock::time_point start_;
   const char* name_ = "initial";
   double first_ = 0, last_ = 0, fraction_ = 0;
 };

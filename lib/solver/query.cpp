@@ -199,6 +199,10 @@ void Solver::power_balance(double* emitted, double* absorbed, double* absorbed_b
     fail(Status::state,
          "emission or reflectance changed after a solve with refine=0 whose balance nobody had "
          "asked for: call hrad_solve first");
+  if (!solution_->finished)
+    fail(Status::state,
+         "the power of this light was not measured, because its solve was stopped: call "
+         "hrad_solve, which goes on with it");
   const PowerBalance& balance = solution_->balance;
   const auto copy = [&](const std::vector<double>& from, double* to) {
     if (!to) return;

@@ -102,6 +102,12 @@ class Sensor {
   double sums_[sets][most_bands] = {};
 };
 
+// Of a vector of any length but 0, however large or small.
+Vec3 direction_of(const double* v) {
+  const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+  return normalized({v[0] / largest, v[1] / largest, v[2] / largest});
+}
+
 }  // namespace
 
 void Solver::query_sensors(int64_t count, const double* xyz, const double* normal,
@@ -114,7 +120,7 @@ void Solver::query_sensors(int64_t count, const double* xyz, const double* norma
       fail(Status::argument, "sensor %lld has a coordinate that is not finite",
            static_cast<long long>(k / 3));
   for (int64_t k = 0; k < count; ++k)
-    if (!(length({normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]}) > 0))
+    if (normal[3 * k] == 0 && normal[3 * k + 1] == 0 && normal[3 * k + 2] == 0)
       fail(Status::argument, "sensor %lld has a normal of length 0", static_cast<long long>(k));
   comm_->all_go_on();
   const RayGather gather(solution_->state, *solution_->engine);
@@ -122,8 +128,7 @@ void Solver::query_sensors(int64_t count, const double* xyz, const double* norma
   std::vector<RayGather::NearEmitters> spaces(static_cast<size_t>(team.size()));
   team.for_each(count, [&](int64_t k, int worker) {
     Sensor sensor(gather, bands, {xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]},
-                  normalized({normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]}),
-                  static_cast<uint64_t>(params_.seed));
+                  direction_of(normal + 3 * k), static_cast<uint64_t>(params_.seed));
     sensor.read(params_.accuracy, spaces[static_cast<size_t>(worker)]);
     sensor.write(irradiance + k * bands, standard_error ? standard_error + k * bands : nullptr);
   });

@@ -20,7 +20,7 @@ constexpr int most_tightenings = 2;
 
 }  // namespace
 
-Solver::Run::Run(Solver& solver)
+Solver::Run::Run(Solver& solver, std::chrono::steady_clock::time_point start)
     : solver_(solver),
       solution_(*solver.solution_),
       state_(solver.solution_->state),
@@ -35,7 +35,7 @@ Solver::Run::Run(Solver& solver)
             if (stop) solver.comm_->raise();
             return !stop && !solver.comm_->raised();
           },
-          solver.observer_) {}
+          solver.observer_, start) {}
 
 Status Solver::Run::run() {
   if (params_.refine == 0) return sweep_again();
@@ -52,7 +52,9 @@ Status Solver::Run::run() {
     while (solution_.rounds_done < rounds_wanted() && !out_of_sweeps())
       if (!round()) return Status::stopped;
     const Status status = finish();
-    if (!tighten()) return status;
+    if (!is_to_be_tightened()) return status;
+    if (!exchange_.all_go_on(clock_.report(1.0, solver_.stats_.iterations))) return Status::stopped;
+    tighten();
     if (!solution_.linked && !link()) return Status::stopped;
   }
 }
@@ -65,10 +67,7 @@ Status Solver::Run::sweep_again() {
       solution_.sweeping && solution_.from_emission && light == solution_.light_hash;
   solution_.light_hash = light;
   if (!goes_on) begin_from_emission(first_rounds);
-  solution_.finished = solution_.measuring_due = false;
-  solver_.stats_.error_estimate = -1;
-  solver_.stats_.error_standard_error = 0;
-  solution_.balance = PowerBalance{};
+  forget_measurements();
   if (!sweep(solution_.sweeping_round) && solution_.sweeping) return Status::stopped;
   // Rays would take longer than the sweeps.
   solution_.measuring_due = true;
@@ -83,8 +82,7 @@ void Solver::Run::start_over_if_the_light_changed() {
   const bool more_accurate = params_.accuracy < solution_.accuracy_reached;
   solution_.light_hash = solution_.mesh_hash = light;
   solution_.accuracy_reached = params_.accuracy;
-  if (other_mesh || other_light || more_accurate)
-    solution_.finished = solution_.measuring_due = false;
+  if (other_mesh || other_light || more_accurate) forget_measurements();
   // Of pairs and clusters the mesh stays; the last round looks at every link again under the new
   // light.
   if (!by_rows_ && (other_mesh || more_accurate))
@@ -99,6 +97,14 @@ void Solver::Run::start_over_if_the_light_changed() {
     solution_.tightened = 0;
     solution_.scale = 1;
   }
+}
+
+// They were of another light, or of links that change.
+void Solver::Run::forget_measurements() {
+  solution_.finished = solution_.measuring_due = false;
+  solver_.stats_.error_estimate = -1;
+  solver_.stats_.error_standard_error = 0;
+  solution_.balance = PowerBalance{};
 }
 
 void Solver::Run::clear_state() {
@@ -117,31 +123,37 @@ Status Solver::Run::finish() {
   return solution_.converged && !missed ? Status::ok : Status::not_converged;
 }
 
-// True when there is something left to try.
-bool Solver::Run::tighten() {
-  if (!solution_.converged || !steered_by_accuracy() || !(error_but(2) > params_.accuracy) ||
-      solution_.tightened >= most_tightenings)
-    return false;
+// When it missed the accuracy and there is something left to try.
+bool Solver::Run::is_to_be_tightened() const {
+  return solution_.converged && steered_by_accuracy() && error_but(2) > params_.accuracy &&
+         solution_.tightened < most_tightenings;
+}
+
+void Solver::Run::tighten() {
   const double error = solver_.stats_.error_estimate;
   solution_.scale *= std::max(0.5, std::min(0.7, 0.7 * params_.accuracy / error));
   ++solution_.tightened;
   solution_.finished = false;
   if (by_rows_) solution_.linked = false;
-  return true;
 }
 
 Status Solver::solve() {
+  const double cpu = user_seconds();
+  const auto start = std::chrono::steady_clock::now();
+  // A stop that was asked for before the solve began holds too, and ends with it, however it ends.
+  const struct TakeBack {
+    std::atomic<bool>& request;
+    ~TakeBack() { request.store(false); }
+  } take_back{stop_requested_};
   if (params_.refine == 0 && !solved())
     fail(Status::state, "there are no links to sweep over: solve once with refine=1 before");
-  const double cpu = user_seconds();
   if (solution_) check_same_everywhere(*comm_, params_, scene_);
   partition();
   begun_ = true;
-  // A stop that was asked for before the solve began holds too.
   Status status;
   solving_ = true;
   try {
-    status = Run(*this).run();
+    status = Run(*this, start).run();
     solving_ = false;
   } catch (...) {
     solving_ = false;
@@ -151,10 +163,8 @@ Status Solver::solve() {
     const double seconds_load = stats_.seconds_load;
     stats_ = Stats{};
     stats_.seconds_load = seconds_load;
-    stop_requested_.store(false);
     throw;
   }
-  stop_requested_.store(false);
   stats_.converged = status == Status::ok;
   stats_.cpu_seconds += user_seconds() - cpu;
   solution_->reconstruction.reset();

@@ -2,6 +2,7 @@
 // Floor 8 (solver).
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include "solver/progress_clock.h"
@@ -12,7 +13,8 @@ namespace hrad {
 
 class Solver::Run {
  public:
-  explicit Run(Solver& solver);
+  // start: of the call, whose progress counts from there.
+  Run(Solver& solver, std::chrono::steady_clock::time_point start);
   Status run();
 
  private:
@@ -21,7 +23,9 @@ class Solver::Run {
   void start_over_if_the_light_changed();
   void clear_state();
   Status finish();
-  bool tighten();
+  bool is_to_be_tightened() const;
+  void tighten();
+  void forget_measurements();
   int rounds_wanted() const { return by_rows_ ? 0 : first_rounds + solution_.tightened; }
   bool out_of_sweeps() const {
     return solver_.stats_.iterations - solution_.earlier_sweeps >= params_.max_iterations;

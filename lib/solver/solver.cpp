@@ -131,6 +131,7 @@ int32_t Solver::patch_owner(int64_t patch) const {
 }
 
 PartitionPlan Solver::plan_partition(const std::string& method, int32_t ranks) {
+  static_cast<void>(partition_method(method));  // what can't be done closes no scene
   partition();
   return hrad::plan_partition(solution_->state, *solution_->engine,
                               predicted_work(params_, solution_->state, solution_->inspection),
@@ -138,6 +139,7 @@ PartitionPlan Solver::plan_partition(const std::string& method, int32_t ranks) {
 }
 
 void Solver::export_partition(const std::string& method, int32_t ranks, const std::string& path) {
+  check_partition_file(path);
   hrad::export_partition(scene_, plan_partition(method, ranks), path);
 }
 
@@ -175,6 +177,7 @@ Stats Solver::stats() const {
 Stats Solver::counts() const {
   Stats s = stats_;
   s.patches = scene_.patch_count();
+  s.ranks = comm_->size();
   s.up_axis = scene_.z_up ? 2 : params_.up == "y" ? 1 : 0;
   s.memory_peak_bytes = peak_memory();
   if (!solution_) return s;
@@ -185,7 +188,6 @@ Stats Solver::counts() const {
   s.leaves = static_cast<int64_t>(solution.leaves.size());
   s.rays = state.rays;
   s.pairs = state.pairs;
-  s.ranks = comm_->size();
   s.links = state.links.link_count() + state.direct.mean.link_count() +
             static_cast<int64_t>(state.direct.links.size()) -
             links_of_others(state, *solution.exchange);
@@ -275,8 +277,12 @@ uint64_t Solver::state_hash() const {
 void Solver::export_file(const std::string& path) const {
   const auto start = std::chrono::steady_clock::now();
   if (!comm_->alone()) {
-    require_solved();
-    reconstruction();  // by all of them
+    std::vector<uint8_t> needs{needs_solution(path)};  // rank 0's path counts
+    broadcast(*comm_, needs);
+    if (needs[0]) {
+      require_solved();
+      reconstruction();  // by all of them
+    }
   }
   if (comm_->rank() == 0) export_solution(*this, path);
   comm_->all_go_on();

@@ -73,6 +73,7 @@ class Solver {
 
   // partition and machine
   void partition();
+  bool partitioned() const { return solution_ != nullptr; }
   int32_t patch_owner(int64_t patch) const;
   // What so many ranks would get by a method, "grid" or "cost"; partition() comes first.
   struct PartitionPlan plan_partition(const std::string& method, int32_t ranks);

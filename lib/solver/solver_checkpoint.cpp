@@ -45,9 +45,11 @@ Span<const LinkStep> own_steps(const LinkJournal& journal, const Comm& comm) {
 }  // namespace
 
 void Solver::lock_checkpoint(const std::string& path) {
-  if (comm_->rank() != 0) return;
-  if (checkpoint_lock_ && checkpoint_lock_->is_of(path)) return;
-  checkpoint_lock_ = std::make_unique<FileLock>(path);
+  std::unique_ptr<FileLock> lock;
+  if (comm_->rank() == 0 && !(checkpoint_lock_ && checkpoint_lock_->is_of(path)))
+    lock = std::make_unique<FileLock>(path);
+  comm_->all_go_on();
+  if (lock) checkpoint_lock_ = std::move(lock);
 }
 
 void Solver::write_checkpoint(const std::string& path) {

@@ -179,6 +179,35 @@ static void what_does_not_fit_is_refused(void** state) {
   hrad_destroy(&third);
 }
 
+/* Also of a scene in which nothing exchanges light. */
+static void any_scene_is_read_back(void** state) {
+  hrad_solver *solver = new_solver(), *other = new_solver();
+  hrad_material wall = {.struct_size = sizeof wall, .flags = HRAD_BLOCKER, .name = "wall"};
+  const double line[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0};
+  const int64_t corners[3] = {0, 1, 2};
+  (void)state;
+  assert_ok(hrad_add_material(solver, &wall, NULL));
+  add_square(solver, 0, 0, 0, 1, 0, 0);
+  assert_ok(hrad_solve(solver));
+  assert_ok(hrad_write_checkpoint(solver, path));
+  assert_ok(hrad_read_checkpoint(other, path));
+  assert_true(hash_of(solver) == hash_of(other));
+  assert_ok(hrad_solve(other));
+  hrad_destroy(&solver);
+  hrad_destroy(&other);
+  /* Nothing but a patch that was dropped. */
+  solver = new_solver();
+  other = new_solver();
+  assert_ok(hrad_add_patches(solver, 3, line, 1, corners, NULL));
+  if (hrad_solve(solver) == HRAD_OK) {
+    assert_ok(hrad_write_checkpoint(solver, path));
+    assert_ok(hrad_read_checkpoint(other, path));
+    assert_true(hash_of(solver) == hash_of(other));
+  }
+  hrad_destroy(&solver);
+  hrad_destroy(&other);
+}
+
 static void a_file_is_described_without_a_solver(void** state) {
   hrad_solver* solver = room(0.2);
   char text[4096];
@@ -211,6 +240,8 @@ static void a_lock_keeps_others_away(void** state) {
   assert_ok(hrad_write_checkpoint(other, other_path));
   assert_ok(hrad_write_checkpoint(one, path));
   assert_status(hrad_lock_checkpoint(one, NULL), HRAD_ERROR_ARGUMENT);
+  assert_status(hrad_lock_checkpoint(one, ""), HRAD_ERROR_FILE);
+  assert_fails(hrad_lock_checkpoint(one, folder), HRAD_ERROR_FILE, folder);
   assert_status(hrad_lock_checkpoint(NULL, path), HRAD_ERROR_ARGUMENT);
   hrad_destroy(&one);
   assert_ok(hrad_write_checkpoint(other, path));
@@ -222,6 +253,7 @@ int main(void) {
                                      cmocka_unit_test(a_stopped_solve_goes_on_elsewhere),
                                      cmocka_unit_test(the_progress_function_writes),
                                      cmocka_unit_test(what_does_not_fit_is_refused),
+                                     cmocka_unit_test(any_scene_is_read_back),
                                      cmocka_unit_test(a_file_is_described_without_a_solver),
                                      cmocka_unit_test(a_lock_keeps_others_away)};
   return cmocka_run_group_tests(tests, make_folder, remove_folder);

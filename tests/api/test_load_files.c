@@ -121,8 +121,8 @@ static void count_warning(int32_t level, const char* message, void* user) {
   if (level == HRAD_LOG_WARNING && strstr(message, "no emitter")) ++*(int*)user;
 }
 
-/* A scene without light is told of once: in the log when it is loaded, in the diagnostics as long as
- * it is dark. */
+/* A scene without light is told of once: in the log when it is loaded, in the diagnostics as long
+ * as it is dark. */
 static void a_dark_scene_is_told_of_once(void** state) {
   const double light[3] = {1, 1, 1};
   char folder[512], path[600], text[512];

@@ -172,6 +172,18 @@ static void text_is_read_whole(void** state) {
   hrad_destroy(&solver);
 }
 
+/* What a checkpoint has room for. */
+static void texts_have_a_longest(void** state) {
+  hrad_solver* solver = new_solver();
+  static char text[4098];
+  (void)state;
+  memset(text, 'm', 4096);
+  assert_ok(hrad_set_text(solver, "unit", text));
+  text[4096] = 'm';
+  assert_fails(hrad_set_text(solver, "unit", text), HRAD_ERROR_ARGUMENT, "4096");
+  hrad_destroy(&solver);
+}
+
 static void unknown_names_get_a_hint(void** state) {
   hrad_solver* solver = new_solver();
   char text[8] = "keep";
@@ -246,6 +258,7 @@ int main(void) {
       cmocka_unit_test(every_row_is_set_and_read),
       cmocka_unit_test(promised_ranges),
       cmocka_unit_test(text_is_read_whole),
+      cmocka_unit_test(texts_have_a_longest),
       cmocka_unit_test(unknown_names_get_a_hint),
       cmocka_unit_test(text_buffers_are_cut),
       cmocka_unit_test(bands_are_fixed_by_the_first_material),

@@ -112,6 +112,12 @@ static void what_is_wrong_is_said(void** state) {
   assert_status(hrad_export_partition(solver, "cost", 2, "nowhere/owners.vtu"), HRAD_ERROR_FILE);
   assert_status(hrad_export_partition(NULL, "cost", 2, "owners.vtu"), HRAD_ERROR_ARGUMENT);
   hrad_destroy(&solver);
+  /* What can't be done closes no scene. */
+  assert_status(hrad_plan_partition(empty, "metis", 2, NULL, NULL), HRAD_ERROR_ARGUMENT);
+  assert_ok(hrad_make_scene(empty, "furnace"));
+  assert_status(hrad_plan_partition(empty, "metis", 2, NULL, NULL), HRAD_ERROR_ARGUMENT);
+  assert_status(hrad_export_partition(empty, "cost", 2, "owners.csv"), HRAD_ERROR_ARGUMENT);
+  assert_ok(hrad_add_material(empty, &(hrad_material){.struct_size = sizeof(hrad_material)}, NULL));
   hrad_destroy(&empty);
 }
 

@@ -94,8 +94,32 @@ static void a_lamp_among_many_is_found(void** state) {
   hrad_destroy(&solver);
 }
 
+/* A normal need not have length 1, however far from it. */
+static void only_the_direction_of_a_normal_counts(void** state) {
+  const double xyz[3] = {0.3, 0.4, 0.5};
+  double wanted[bands], h[bands], length;
+  hrad_solver* solver = NULL;
+  (void)state;
+  assert_ok(hrad_create(&solver));
+  assert_ok(hrad_make_scene(solver, "cornell"));
+  assert_ok(hrad_set_double(solver, "accuracy", 0.2));
+  assert_ok(hrad_solve(solver));
+  {
+    const double normal[3] = {0, 1, 1};
+    assert_ok(hrad_query_sensors(solver, 1, xyz, normal, wanted, NULL));
+  }
+  assert_true(wanted[0] > 0);
+  for (length = 1e-300; length < 1e305; length *= 1e50) {
+    const double normal[3] = {0, length, length};
+    assert_ok(hrad_query_sensors(solver, 1, xyz, normal, h, NULL));
+    assert_memory_equal(h, wanted, sizeof h);
+  }
+  hrad_destroy(&solver);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(standard_errors_are_kept_and_true),
-                                     cmocka_unit_test(a_lamp_among_many_is_found)};
+                                     cmocka_unit_test(a_lamp_among_many_is_found),
+                                     cmocka_unit_test(only_the_direction_of_a_normal_counts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

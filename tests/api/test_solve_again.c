@@ -1,34 +1,9 @@
-/* Solves that go on: after a stop, after a change of light, with another number of threads, beside
- * another solver. The hash says whether the bits are the same. */
+/* Solves that go on: after a change of light, with another number of threads, beside another
+ * solver. The hash says whether the bits are the same. */
 #include <pthread.h>
 #include <stdlib.h>
 
-#include "api.h"
-
-enum { BANDS = 3 };
-
-static hrad_solver* prepared(const char* scene, double accuracy, int64_t threads) {
-  hrad_solver* solver = new_solver();
-  assert_ok(hrad_make_scene(solver, scene));
-  assert_ok(hrad_set_double(solver, "accuracy", accuracy));
-  assert_ok(hrad_set_int(solver, "threads", threads));
-  return solver;
-}
-
-static uint64_t hash_of(const hrad_solver* solver) {
-  uint64_t hash = 0;
-  assert_ok(hrad_state_hash(solver, &hash));
-  return hash;
-}
-
-static uint64_t cornell_hash(int64_t threads) {
-  hrad_solver* solver = prepared("cornell", 0.1, threads);
-  uint64_t hash;
-  assert_ok(hrad_solve(solver));
-  hash = hash_of(solver);
-  hrad_destroy(&solver);
-  return hash;
-}
+#include "solves.h"
 
 static void threads_do_not_change_a_bit(void** state) {
   const uint64_t alone = cornell_hash(1);
@@ -47,81 +22,6 @@ static void result_parameters_and_scene_change_the_hash(void** state) {
   solver = prepared("furnace", 0.1, 1);
   assert_ok(hrad_solve(solver));
   assert_true(hash_of(solver) != alone);
-  hrad_destroy(&solver);
-}
-
-struct counting {
-  int64_t calls, stop_at; /* stop_at < 0: never */
-  double fraction, seconds;
-  int wrong;
-};
-
-static int32_t count(const hrad_progress* progress, void* user) {
-  static const char* const stages[] = {"initial", "linking", "refine", "sweep", "measure"};
-  struct counting* counting = user;
-  int known = 0;
-  for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i)
-    known |= strcmp(progress->stage, stages[i]) == 0;
-  counting->wrong |= !known || progress->struct_size != sizeof *progress ||
-                     !(progress->fraction >= counting->fraction && progress->fraction <= 1) ||
-                     !(progress->seconds >= counting->seconds) || progress->iteration < 0;
-  counting->fraction = progress->fraction;
-  counting->seconds = progress->seconds;
-  return ++counting->calls == counting->stop_at;
-}
-
-static void progress_is_told(void** state) {
-  struct counting counting = {0, -1, 0, 0, 0};
-  hrad_solver* solver = prepared("cornell", 0.1, 1);
-  (void)state;
-  assert_ok(hrad_set_progress(solver, count, &counting));
-  assert_ok(hrad_solve(solver));
-  assert_true(counting.calls > 0);
-  assert_false(counting.wrong);
-  assert_true(hash_of(solver) == cornell_hash(1));
-  hrad_destroy(&solver);
-}
-
-/* Stopped at its first, second, ... report and then let go on, it ends in the same bits. */
-static void stopped_solves_go_on(void** state) {
-  const uint64_t uninterrupted = cornell_hash(1);
-  (void)state;
-  for (int64_t stop_at = 1; stop_at <= 4; ++stop_at) {
-    struct counting counting = {0, stop_at, 0, 0, 0};
-    hrad_solver* solver = prepared("cornell", 0.1, 2);
-    hrad_status status;
-    uint64_t ignored;
-    assert_ok(hrad_set_progress(solver, count, &counting));
-    status = hrad_solve(solver);
-    if (counting.calls < stop_at) { /* done before */
-      assert_int_equal(status, HRAD_OK);
-    } else {
-      assert_int_equal(status, HRAD_STOPPED);
-      /* The queries answer from the last whole round, or STATE when there is none. */
-      status = hrad_state_hash(solver, &ignored);
-      assert_true(status == HRAD_OK || status == HRAD_ERROR_STATE);
-      assert_ok(hrad_set_progress(solver, NULL, NULL));
-      assert_ok(hrad_solve(solver));
-    }
-    assert_true(hash_of(solver) == uninterrupted);
-    hrad_destroy(&solver);
-  }
-}
-
-static int32_t request(const hrad_progress* progress, void* user) {
-  (void)progress;
-  hrad_request_stop(*(hrad_solver**)user);
-  return 0;
-}
-
-static void request_stops_a_running_solve(void** state) {
-  hrad_solver* solver = prepared("cornell", 0.1, 1);
-  (void)state;
-  assert_ok(hrad_set_progress(solver, request, &solver));
-  assert_status(hrad_solve(solver), HRAD_STOPPED);
-  assert_ok(hrad_set_progress(solver, NULL, NULL));
-  assert_ok(hrad_solve(solver)); /* the flag was taken back */
-  assert_true(hash_of(solver) == cornell_hash(1));
   hrad_destroy(&solver);
 }
 
@@ -360,9 +260,6 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(threads_do_not_change_a_bit),
       cmocka_unit_test(result_parameters_and_scene_change_the_hash),
-      cmocka_unit_test(progress_is_told),
-      cmocka_unit_test(stopped_solves_go_on),
-      cmocka_unit_test(request_stops_a_running_solve),
       cmocka_unit_test(callbacks_can_not_call_back),
       cmocka_unit_test(solvers_work_side_by_side),
       cmocka_unit_test(emission_may_change),

@@ -116,6 +116,8 @@ works scene cornell -o cornell.obj
 sed -i 's/^Ke 17 /Ke 18 /' cornell.mtl
 refuses 4 "the emission of patch" solve cornell.obj --restart c.hrad
 refuses 2 "accuracy" solve cornell --restart c.hrad --accuracy 0.4
+refuses 2 "refine=1" solve cornell --set refine=0
+refuses 2 "give it once" solve cornell --checkpoint k.hrad --checkpoint-keep 2 --set checkpoint_keep=3
 refuses 2 "--restart is for a scene" solve c.hrad --restart d.hrad
 refuses 5 "none.hrad" solve none.hrad
 refuses 5 "none.hrad" check none.hrad
@@ -139,6 +141,14 @@ holds "j['state_hash'] == '$wanted'"
 grep -q 'going on from the older' err || complain "nothing said of the older file: $(cat err)"
 works check r.hrad
 works check r.hrad.prev
+head -c 9000 c.hrad >r.hrad
+works solve cornell -q --checkpoint r.hrad --restart auto
+[ -s err ] && complain "$ran: it is not quiet: $(cat err)"
+for number in 3 4 5; do
+  works solve cornell --accuracy 0.$number --checkpoint kept.hrad --set checkpoint_keep=2
+done
+works check kept.hrad.prev2
+rm kept.hrad*
 rm r.hrad
 works solve cornell --checkpoint r.hrad --restart auto --json
 grep -q 'r.hrad is missing' err || complain "nothing said of the missing file: $(cat err)"

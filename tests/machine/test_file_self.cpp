@@ -175,6 +175,30 @@ void failed_writes_leave_nothing() {
   CHECK_EQUAL(folder.entries(), 1);
 }
 
+// Whatever fails, the old content is under one of its names.
+void what_can_not_be_kept_is_not_replaced() {
+  Folder folder;
+  const std::string path = folder.path + "/out", inside = path + ".prev/inside";
+  put(path, "old");
+  CHECK_EQUAL(::mkdir((path + ".prev").c_str(), 0700), 0);
+  put(inside, "");
+  {
+    WholeFile file(path);
+    file.text("new");
+    bool failed = false;
+    try {
+      file.commit_keeping(1);
+    } catch (const hrad::Error& error) {
+      failed = error.status() == Status::file;
+    }
+    CHECK(failed);
+  }
+  CHECK(content(path) == "old");
+  CHECK_EQUAL(folder.entries(), 2);
+  ::unlink(inside.c_str());
+  ::rmdir((path + ".prev").c_str());
+}
+
 void reading() {
   Folder folder;
   const std::string path = folder.path + "/in";
@@ -208,6 +232,7 @@ int main() {
       HRAD_TEST(finished_is_not_committed),
       HRAD_TEST(mode_and_links_are_kept),
       HRAD_TEST(the_longest_name_works),
+      HRAD_TEST(what_can_not_be_kept_is_not_replaced),
       HRAD_TEST(reading),
       HRAD_TEST(refused_targets),
       HRAD_TEST(failed_writes_leave_nothing),

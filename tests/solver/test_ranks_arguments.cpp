@@ -89,6 +89,57 @@ void another_scene_on_one_rank() {
   }
 }
 
+// What one rank can't plan none plans, before the partition; after it each plans by itself.
+void plans_are_made_together_or_alone() {
+  const auto answers = solve_together(ranks, [&](SolverRank& one) {
+    const bool is_it = one.rank == 1;
+    one.note(hrad_make_scene(one.solver, "furnace"));
+    std::vector<int32_t> owner(64, -7);
+    one.note(hrad_plan_partition(one.solver, is_it ? nullptr : "cost", 2, owner.data(), nullptr));
+    one.note(hrad_export_partition(one.solver, is_it ? "metis" : "cost", 2, "/none/a.vtu"));
+    one.note(hrad_set_int(one.solver, "max_memory", is_it ? 1 : 0));
+    one.note(hrad_plan_partition(one.solver, "cost", 2, owner.data(), nullptr));
+    one.note(hrad_set_int(one.solver, "max_memory", 0));
+    one.note_number(owner[0] == -7);
+    one.note(hrad_partition(one.solver));
+    const hrad_status alone =
+        hrad_plan_partition(one.solver, is_it ? nullptr : "cost", 2, owner.data(), nullptr);
+    one.note_number((alone == HRAD_OK) != is_it);
+  });
+  const auto errors = errors_of(answers);
+  CHECK_EQUAL(errors.size(), size_t{3});
+  CHECK_EQUAL(errors[0].status, HRAD_ERROR_ARGUMENT);
+  CHECK_EQUAL(errors[1].status, HRAD_ERROR_ARGUMENT);
+  CHECK_EQUAL(errors[2].status, HRAD_ERROR_MEMORY);
+  for (const Answer& answer : answers) CHECK(answer.text != "0");
+}
+
+// What fails on one rank changes nothing on the others.
+void nobody_keeps_a_lock_or_a_count_that_one_refuses() {
+  const Folder folder("ranks-arguments");
+  const auto answers = solve_together(ranks, [&](SolverRank& one) {
+    const bool is_it = one.rank == 2;
+    one.prepare("furnace", "rows", 0.4);
+    one.note_number(one.stats().ranks == ranks);
+    one.note(hrad_export(one.solver, folder.file("scene.obj").c_str()));  // needs no solve
+    one.note(hrad_export(one.solver, folder.file("scene.csv").c_str()));
+    one.note(hrad_solve(one.solver));
+    int64_t count = -7;
+    one.note(hrad_leaf_count(one.solver, is_it ? nullptr : &count));
+    one.note_number(count == -7);
+    one.note(hrad_lock_checkpoint(one.solver, folder.file("a.hrad").c_str()));
+    one.note(hrad_lock_checkpoint(one.solver, is_it ? nullptr : folder.file("b.hrad").c_str()));
+  });
+  const auto errors = errors_of(answers);
+  CHECK_EQUAL(errors.size(), size_t{3});
+  CHECK_EQUAL(errors[0].status, HRAD_ERROR_STATE);
+  CHECK_EQUAL(errors[1].status, HRAD_ERROR_ARGUMENT);
+  CHECK_EQUAL(errors[2].status, HRAD_ERROR_ARGUMENT);
+  for (const Answer& answer : answers) CHECK(answer.text != "0");
+  CHECK(std::ifstream(folder.file("scene.obj")).good());
+  CHECK(!std::ifstream(folder.file("b.hrad.lock")).good());
+}
+
 // Rank 0 describes the scene, the others need nothing in their hands.
 void only_rank_0_has_a_scene() {
   const Folder folder("ranks-arguments");
@@ -213,6 +264,8 @@ int main() {
       HRAD_TEST(parameters_that_differ_are_named),
       HRAD_TEST(run_parameters_may_differ),
       HRAD_TEST(another_scene_on_one_rank),
+      HRAD_TEST(plans_are_made_together_or_alone),
+      HRAD_TEST(nobody_keeps_a_lock_or_a_count_that_one_refuses),
       HRAD_TEST(only_rank_0_has_a_scene),
       HRAD_TEST(one_query_fails_for_all),
       HRAD_TEST(callbacks_that_throw),
