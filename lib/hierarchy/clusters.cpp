@@ -73,6 +73,15 @@ class Builder {
     return true;
   }
 
+  // Once the order is final, in which a tree is also made again: sums depend on it.
+  void measure_again() {
+    for (Cluster& cluster : tree_.clusters) {
+      Cluster bounds = bounds_of({cluster.first, cluster.count, -1, 0, 0});
+      std::copy(cluster.child, cluster.child + 2, bounds.child);
+      cluster = bounds;
+    }
+  }
+
  private:
   const Vec3& normal(int32_t surface) const { return forest_.surfaces[surface].normal; }
 
@@ -177,7 +186,9 @@ void add_clusters(Forest& forest, const std::vector<ClusterItem>& items) {
     node.surface = -1 - c;
     forest.nodes.push_back(node);
   }
-  Builder(forest, items).build();
+  Builder builder(forest, items);
+  builder.build();
+  builder.measure_again();
   measure_clusters(forest);
 }
 

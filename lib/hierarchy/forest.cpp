@@ -1,7 +1,10 @@
 // Roots, lattice places and geometry of the elements. Floor 5 (hierarchy).
 #include "hierarchy/forest.h"
 
+#include <limits>
 #include <utility>
+
+#include "base/error.h"
 
 namespace hrad {
 
@@ -22,6 +25,13 @@ Node child_place(const Node& parent, int child) {
     node.inverted = child != 3;
   }
   return node;
+}
+
+void require_numbers(size_t nodes) {
+  if (nodes > static_cast<size_t>(std::numeric_limits<NodeId>::max()))
+    fail(Status::memory,
+         "%zu elements are more than there are numbers for: use a larger accuracy or min_area",
+         nodes);
 }
 
 void place_children(std::vector<Node>& nodes, NodeId parent, NodeId first) {

@@ -81,6 +81,9 @@ Node child_place(const Node& parent, int child);
 // is that of the parent, which is right where it is whole.
 void place_children(std::vector<Node>& nodes, NodeId parent, NodeId first);
 
+// MEMORY when so many nodes are more than have numbers.
+void require_numbers(size_t nodes);
+
 class Forest {
  public:
   explicit Forest(const Scene& scene);

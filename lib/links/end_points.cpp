@@ -85,7 +85,6 @@ void PointPlacer::place_at(const Element& element, const float u[16], const floa
 
 void pair_up(const EndPoints& r, const EndPoints& s, const int8_t of_source[16],
              PairSamples& samples) {
-  const float pi_float = static_cast<float>(pi);
   SegmentPacket& packet = samples.packet;
   packet.active = all_pairs;
   for (int k = 0; k < 16; ++k) {
@@ -102,8 +101,7 @@ void pair_up(const EndPoints& r, const EndPoints& s, const int8_t of_source[16],
     at_receiver = at_receiver > 0 ? at_receiver : 0;
     at_source = at_source > 0 ? at_source : 0;
     const float d2 = dx * dx + dy * dy + dz * dz;
-    const float below = pi_float * d2 * d2;
-    samples.kernel[k] = below > 0 ? at_receiver * at_source / below : 0;
+    samples.kernel[k] = kernel_of(at_receiver, at_source, d2);
   }
 }
 

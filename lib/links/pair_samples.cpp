@@ -89,7 +89,6 @@ void draw_pairs(const Element& receiver, const Element& source, uint64_t key, Ve
 void place_pairs(const Element& receiver, const Element& source, const PairPoints& p, Vec3 center,
                  double offset, PairSamples& samples) {
   const FloatTriangle r = lifted(receiver, center, offset), s = lifted(source, center, offset);
-  const float pi_float = static_cast<float>(pi);
   SegmentPacket& packet = samples.packet;
   packet.active = all_pairs;
   for (int k = 0; k < 16; ++k) {
@@ -112,8 +111,7 @@ void place_pairs(const Element& receiver, const Element& source, const PairPoint
     at_receiver = at_receiver > 0 ? at_receiver : 0;
     at_source = at_source > 0 ? at_source : 0;
     const float d2 = dx * dx + dy * dy + dz * dz;
-    const float below = pi_float * d2 * d2;
-    samples.kernel[k] = below > 0 ? at_receiver * at_source / below : 0;
+    samples.kernel[k] = kernel_of(at_receiver, at_source, d2);
   }
 }
 

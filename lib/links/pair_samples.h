@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "base/angle.h"
 #include "links/element.h"
 #include "visibility/visibility.h"
 
@@ -25,6 +26,15 @@ struct PairSamples {
   SegmentPacket packet;  // pairs 4q .. 4q+3 start in quarter q of the receiver
   float kernel[16];      // cos * cos' / (pi d^2), in 1/unit^2; 0 behind a horizon
 };
+
+// The kernel of two points whose cosines, each times the distance, are these, d2 being the square
+// of the distance. Step by step, so that nothing leaves the range of single precision in a scene of
+// any size that is taken.
+inline float kernel_of(float at_receiver, float at_source, float d2) {
+  constexpr float least_square = 1e-37f, inverse_pi = static_cast<float>(1 / pi);
+  const float inverse = 1 / d2;
+  return d2 > least_square ? (at_receiver * inverse) * (at_source * inverse) * inverse_pi : 0;
+}
 
 // Draws the pairs from the key's hash: stratified on both sides, so that every quarter of the
 // receiver meets every quarter of the source. center, offset: VisibilityEngine's.

@@ -128,6 +128,7 @@ void unpack_own_points(PackedReader& bytes, int64_t first, int64_t end, CornerLi
 void check_points(const State& state, const FilePlace& place) {
   const CornerLight& direct = state.direct;
   std::vector<int32_t> surface(direct.point_count(), -1);
+  std::vector<uint8_t> is_named(direct.point_count(), 0);
   size_t own = 0;
   std::vector<int32_t> number_of_own(direct.point_count(), -1);
   for (const auto& point : direct.own)
@@ -147,6 +148,9 @@ void check_points(const State& state, const FilePlace& place) {
           (first < 0 ||
            number_of_own[static_cast<size_t>(points[c])] != first + static_cast<int32_t>(c)))
         fail_format(place, "leaf %zu has points of its own that have no place", id);
+      if (number_of_own[static_cast<size_t>(points[c])] >= 0 &&
+          is_named[static_cast<size_t>(points[c])]++ > 0)
+        fail_format(place, "point %d is the own one of two leaves", points[c]);
     }
   }
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int64_t most_nodes = std::numeric_limits<int32_t>::max();
 constexpr int64_t most_links = int64_t{1} << 40;
-constexpr int64_t most = std::numeric_limits<int64_t>::max();
+constexpr int64_t most = int64_t{1} << 53;
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr int most_rounds = 64;
 
@@ -109,7 +109,8 @@ CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source
   if (nodes > most_nodes || s.surfaces > 2 * s.patches ||
       (s.receivers_of_means != 0 && s.receivers_of_means != nodes) ||
       (s.leaves_of_points != 0 && s.leaves_of_points != nodes) ||
-      (s.leaves_of_points != 0 && (s.cells == 0 || s.receivers_of_means == 0)) ||
+      (s.leaves_of_points != 0 && s.receivers_of_means == 0) ||
+      (s.receivers_of_means != 0 && s.cells == 0) ||
       (s.leaves_of_points == 0 && (s.points > 0 || s.own_points > 0)) ||
       (s.clusters > 0 && s.clusters >= s.surfaces))
     fail_format(bytes.place(),
@@ -203,8 +204,12 @@ void unpack_progress(PackedReader& bytes, CheckpointContent& content) {
   for (bool* flag : {&content.begun, &p.linked, &p.sweeping, &p.from_emission, &p.converged,
                      &p.finished, &p.measuring_due, &stats.converged})
     *flag = bytes.flag("a flag of the progress");
-  for (int* count : {&p.rounds_done, &p.tightened, &p.sweeping_round})
-    *count = static_cast<int>(bytes.count("a number of rounds", 0, most_rounds));
+  const auto rounds = [&](int highest) {
+    return static_cast<int>(bytes.count("a number of rounds", 0, highest));
+  };
+  p.rounds_done = rounds(most_rounds);
+  p.tightened = rounds(most_tightenings);
+  p.sweeping_round = rounds(most_rounds);
   for (int64_t* count : {&p.earlier_sweeps, &stats.rounds, &stats.iterations, &content.rays,
                          &content.pairs, &inspection.unresolved, &inspection.first_unresolved})
     *count = bytes.count("a count of the progress", 0, most);
@@ -217,7 +222,7 @@ void unpack_progress(PackedReader& bytes, CheckpointContent& content) {
   p.light_hash = bytes.u64();
   p.mesh_hash = bytes.u64();
   content.key_of_steps = bytes.u64();
-  p.scale = bytes.finite("the scale of thresholds", 1e-6, 1);
+  p.scale = bytes.finite("the scale of thresholds", least_scale, 1);
   p.accuracy_reached = bytes.finite("the accuracy reached", 0, 1);
   const double tolerance = bytes.finite("the tolerance of sweeps", 0, 1);
   stats.error_estimate = bytes.finite("the estimate of the error", -1, largest);

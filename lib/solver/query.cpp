@@ -55,8 +55,11 @@ void node_values(const State& state, NodeId id, Quantity quantity, double* out) 
 
 const Reconstruction& Solver::reconstruction() const {
   Solution& s = *solution_;
-  if (!s.reconstruction)
-    s.reconstruction = std::make_unique<Reconstruction>(s.state, s.leaves, *s.exchange);
+  if (!s.reconstruction) {
+    auto made = std::make_unique<Reconstruction>(s.state, s.leaves, *s.exchange);
+    comm_->all_go_on();  // all of them have it, or none
+    s.reconstruction = std::move(made);
+  }
   return *s.reconstruction;
 }
 

@@ -10,6 +10,13 @@
 
 namespace hrad {
 
+// What missed the accuracy is solved again so often at the most, with thresholds that are so much
+// smaller at the most, each time.
+constexpr int most_tightenings = 2;
+constexpr double least_tightening = 0.5;
+constexpr double least_scale = least_tightening * least_tightening;
+static_assert(most_tightenings == 2, "least_scale is that of two");
+
 // Refinement rounds before the first measurement. Fewer lose light: a source that is still dark
 // when its links are weighed is never refined for.
 constexpr int first_rounds = 5;

@@ -16,7 +16,6 @@ namespace {
 // Only a miss by this factor, and of an error that can be told from noise, is a failure: the
 // measurement is a sample.
 constexpr double surely_missed = 2, least_measurable = 0.02;
-constexpr int most_tightenings = 2;
 
 }  // namespace
 
@@ -131,7 +130,7 @@ bool Solver::Run::is_to_be_tightened() const {
 
 void Solver::Run::tighten() {
   const double error = solver_.stats_.error_estimate;
-  solution_.scale *= std::max(0.5, std::min(0.7, 0.7 * params_.accuracy / error));
+  solution_.scale *= std::max(least_tightening, std::min(0.7, 0.7 * params_.accuracy / error));
   ++solution_.tightened;
   solution_.finished = false;
   if (by_rows_) solution_.linked = false;
@@ -154,6 +153,8 @@ Status Solver::solve() {
   solving_ = true;
   try {
     status = Run(*this, start).run();
+    if (params_.refine != 0) solution_->leaves = solution_->state.forest.leaves();
+    comm_->all_go_on();
     solving_ = false;
   } catch (...) {
     solving_ = false;
@@ -168,7 +169,6 @@ Status Solver::solve() {
   stats_.converged = status == Status::ok;
   stats_.cpu_seconds += user_seconds() - cpu;
   solution_->reconstruction.reset();
-  if (params_.refine != 0) solution_->leaves = solution_->state.forest.leaves();
   return status;
 }
 

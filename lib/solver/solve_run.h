@@ -42,6 +42,7 @@ class Solver::Run {
   void begin_sweeps(int round);
   bool link();
   void begin_journal(uint64_t key);
+  void forget_journal();
   bool link_by_pairs();
   bool link_by_clusters();
   bool link_by_rows();

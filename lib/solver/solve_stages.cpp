@@ -65,17 +65,26 @@ bool Solver::Run::link() {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!done) {
     state_.rays = state_.journal.rays_before;
+    state_.pairs = state_.journal.pairs_before;
     return false;
   }
-  state_.journal.clear();
+  forget_journal();
   solution_.linked = true;
   solution_.rounds_done = 0;
   return sweep(by_rows_ ? first_rounds : 0);
 }
 
 void Solver::Run::begin_journal(uint64_t key) {
-  state_.journal.begin(key, state_.rays);
+  const int64_t before = bytes_of(state_);
+  state_.journal.begin(key, state_.rays, state_.pairs);
   state_.journal.recording = params_.resumable != 0;
+  state_.memory.take(bytes_of(state_) - before, "");
+}
+
+void Solver::Run::forget_journal() {
+  const int64_t before = bytes_of(state_);
+  state_.journal.clear();
+  state_.memory.take(bytes_of(state_) - before, "");
 }
 
 bool Solver::Run::link_by_pairs() {
@@ -125,7 +134,7 @@ bool Solver::Run::round() {
   solver_.stats_.seconds_iterative +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!done) return false;
-  state_.journal.clear();
+  forget_journal();
   ++solver_.stats_.rounds;
   solution_.rounds_done = number;
   return sweep(number);

@@ -71,7 +71,7 @@ void Solver::write_checkpoint(const std::string& path) {
   int64_t rays = linked ? s->state.rays : journal.rays_before;
   if (solving_ && !linked && journal.empty())
     fail(Status::state, "%s: nothing is linked yet that a checkpoint could keep", path.c_str());
-  int64_t pairs = s ? s->state.pairs : 0;
+  int64_t pairs = linked ? s->state.pairs : journal.pairs_before;
   add_up(*comm_, rays, pairs);
   std::unique_ptr<FileLock> lock;
   if (comm_->rank() == 0 && !(checkpoint_lock_ && checkpoint_lock_->is_of(path)))
@@ -101,7 +101,8 @@ void Solver::take_over(CheckpointContent& content) {
   // Counts are added up over all ranks.
   state.rays = comm_->rank() == 0 ? content.rays : 0;
   state.pairs = comm_->rank() == 0 ? content.pairs : 0;
-  state.journal = LinkJournal::restored(content.key_of_steps, state.rays, std::move(content.steps));
+  state.journal = LinkJournal::restored(content.key_of_steps, state.rays, state.pairs,
+                                        std::move(content.steps));
   if (!content.state) return;
   const int64_t before = bytes_of(state);
   state.forest = std::move(content.state->forest);

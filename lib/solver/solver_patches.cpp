@@ -111,8 +111,8 @@ void Solver::add_patches_here(int64_t n_vertices, const double* xyz, int64_t n_t
                      material ? material[i] : 0);
   check_patches(scene_, addition.first_patch());
   check_memory(scene_, params_.max_memory);
-  comm_->all_go_on();
   warn(diagnostics);
+  comm_->all_go_on();
   addition.keep();
   // As engineers have it; files of pictures have y.
   if (addition.first_patch() == 0) scene_.z_up = true;

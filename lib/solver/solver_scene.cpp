@@ -89,6 +89,11 @@ int32_t Solver::add_material(Material material) {
       fail(Status::argument, "material %lld is a blocker and can't emit: leave its emission 0",
            static_cast<long long>(number));
   }
+  // What needs memory comes before all agree.
+  material.reflectance.resize(bands, 0.5);
+  material.emission.resize(bands, 0.0);
+  scene_.materials.reserve(scene_.materials.size() + 1);
+  comm_->all_go_on();
   return scene_.add_material(std::move(material));
 }
 
@@ -110,10 +115,11 @@ void Solver::load_scene(const std::string& path) {
     check_memory(scene_, params_.max_memory);
   }
   broadcast(*comm_, scene_);
-  comm_->all_go_on();
+  // A log function that throws takes it back as well.
   warn(diagnostics);
   if (scene_.patch_count() > 0 && !any_emitter(scene_) && describes_scene())
     log_.write(Log::warning, no_emitter);
+  comm_->all_go_on();
   addition.keep();
   set_up_axis();
 }
@@ -130,10 +136,15 @@ void Solver::make_scene(const std::string& name) {
   make_builtin_scene(made, name);
   check_patches(made, 0);
   check_memory(made, params_.max_memory);
-  comm_->all_go_on();
-  scene_ = std::move(made);
+  std::swap(scene_, made);
+  try {
+    warn(0);
+    comm_->all_go_on();
+  } catch (...) {
+    std::swap(scene_, made);
+    throw;
+  }
   set_up_axis();
-  warn(0);
 }
 
 // Rank 0's range of patches and the values given for each.

@@ -24,12 +24,15 @@ void add_result(LinkStep& step, uint64_t name, const ClusterResult& result) {
 }
 
 // False: that is no result of a cluster.
-bool take_result(KnownResult& known, size_t nodes, ClusterResult& result) {
+bool take_result(KnownResult& known, size_t nodes, ClusterResult& taken) {
   const auto is_node = [&](NodeId id) { return id >= 0 && static_cast<size_t>(id) < nodes; };
-  result = ClusterResult{};
-  return known.take(&result.rays, 1) && result.rays >= 0 && known.take_list(result.run) &&
-         known.take_list(result.down) && known.at_end() && are_links(result.run, is_node) &&
-         std::all_of(result.down.begin(), result.down.end(), is_node);
+  ClusterResult result;
+  const bool is_good = known.take(&result.rays, 1) && is_count(result.rays) &&
+                       known.take_list(result.run) && known.take_list(result.down) &&
+                       known.at_end() && are_links(result.run, is_node) &&
+                       std::all_of(result.down.begin(), result.down.end(), is_node);
+  if (is_good) taken = std::move(result);
+  return is_good;
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ void gather(State& state, ThreadTeam& team, GatherSpace& space) {
     const LinkTable::Block block = state.links.block(number);
     float* const out = &state.irradiance[block.receiver * bands];
     gather_runs(state, space, block.links, block.first, block.receivers, block.end, out);
-    if (state.direct.mean.size() > 0) add_direct_light(state, space, number, out);
+    if (number < state.direct.mean.block_count()) add_direct_light(state, space, number, out);
   });
 }
 

@@ -25,13 +25,15 @@ constexpr double corner_of_seven = 1.0 / 20, middle_of_seven = 2.0 / 15,
                  centroid_of_seven = 9.0 / 20;
 constexpr int number_of_centroid = 3;  // among the points that belong to a leaf alone
 
-// Of a point in the plane of a triangle: it is Triangle::at(x, y).
+// Of a point of a triangle: it is Triangle::at(x, y). By areas, which a sliver has too.
 void coordinates_in(const Triangle& t, Vec3 point, double* x, double* y) {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = point - t.a;
-  const double bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac);
-  const double pb = dot(ap, ab), pc = dot(ap, ac), determinant = bb * cc - bc * bc;
-  *x = (cc * pb - bc * pc) / determinant;
-  *y = (bb * pc - bc * pb) / determinant;
+  const Vec3 n = cross(ab, ac);
+  const double whole = dot(n, n);
+  *x = *y = 1.0 / 3;
+  if (!(whole > 0)) return;
+  *x = std::clamp(dot(cross(ap, ac), n) / whole, 0.0, 1.0);
+  *y = std::clamp(dot(cross(ab, ap), n) / whole, 0.0, 1.0);
 }
 
 }  // namespace

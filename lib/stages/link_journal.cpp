@@ -12,6 +12,8 @@ namespace {
 
 // What a process that dies may lose of a stage, and for how long threads don't wait for each other.
 constexpr double seconds_of_a_turn = 2;
+// What is written as one piece.
+constexpr size_t longest_step = size_t{64} << 20;  // bytes
 
 int64_t bytes_of(const LinkStep& step) {
   return static_cast<int64_t>((step.names.capacity() + step.ends.capacity()) * sizeof(uint64_t) +
@@ -20,7 +22,7 @@ int64_t bytes_of(const LinkStep& step) {
 
 }  // namespace
 
-void LinkJournal::begin(uint64_t key, int64_t rays) {
+void LinkJournal::begin(uint64_t key, int64_t rays, int64_t pairs) {
   // Results are kept as they lie in memory: a machine of another byte order has its own.
   const uint32_t one = 1;
   uint8_t first_byte;
@@ -29,6 +31,7 @@ void LinkJournal::begin(uint64_t key, int64_t rays) {
   if (key != key_) clear();
   key_ = key;
   rays_before = rays;
+  pairs_before = pairs;
   pass_ = 0;
   known_.clear();
 }
@@ -45,30 +48,29 @@ void LinkJournal::next_pass() {
 }
 
 bool LinkJournal::known(uint64_t name, const std::function<bool(KnownResult&)>& use) const {
-  bool found = false;
   auto entry = std::lower_bound(known_.begin(), known_.end(), name,
                                 [](const Entry& e, uint64_t n) { return e.name < n; });
   for (; entry != known_.end() && entry->name == name; ++entry) {
     const LinkStep& step = steps_[entry->step];
     const uint64_t first = entry->task > 0 ? step.ends[entry->task - 1] : 0;
     KnownResult result(step.results.data() + first, step.ends[entry->task] - first);
-    found = use(result) || found;
+    if (use(result)) return true;
   }
-  return found;
+  return false;
 }
 
 bool LinkJournal::known_run(uint64_t name, const std::function<bool(NodeId)>& is_source,
                             std::vector<Link>& links, int64_t& rays) const {
-  std::vector<Link> run;
-  int64_t rays_of_run = 0;
-  const bool is_known = !known_.empty() && known(name, [&](KnownResult& result) {
-    return result.take(&rays_of_run, 1) && rays_of_run >= 0 && result.take_list(run) &&
-           result.at_end() && are_links(run, is_source);
+  return !known_.empty() && known(name, [&](KnownResult& result) {
+    std::vector<Link> run;
+    int64_t rays_of_run = 0;
+    if (!result.take(&rays_of_run, 1) || !is_count(rays_of_run) || !result.take_list(run) ||
+        !result.at_end() || !are_links(run, is_source))
+      return false;
+    links.insert(links.end(), run.begin(), run.end());
+    rays = rays_of_run;
+    return true;
   });
-  if (!is_known) return false;
-  links.insert(links.end(), run.begin(), run.end());
-  rays = rays_of_run;
-  return true;
 }
 
 bool LinkJournal::for_each(ThreadTeam& team, int64_t count,
@@ -95,7 +97,12 @@ bool LinkJournal::for_each(ThreadTeam& team, int64_t count,
         });
     // Tasks begin in ascending order, and those that were begun have been finished.
     LinkStep step;
-    for (; next < count && is_done[static_cast<size_t>(next)]; ++next) add(step, next);
+    for (; next < count && is_done[static_cast<size_t>(next)]; ++next) {
+      add(step, next);
+      if (step.results.size() < longest_step) continue;
+      record(std::move(step));
+      step = LinkStep{};
+    }
     record(std::move(step));
   }
   return going_on;
@@ -112,10 +119,12 @@ void LinkJournal::push(LinkStep step) {
   steps_.push_back(std::move(step));
 }
 
-LinkJournal LinkJournal::restored(uint64_t key, int64_t rays_before, std::vector<LinkStep> steps) {
+LinkJournal LinkJournal::restored(uint64_t key, int64_t rays_before, int64_t pairs_before,
+                                  std::vector<LinkStep> steps) {
   LinkJournal journal;
   journal.key_ = key;
   journal.rays_before = rays_before;
+  journal.pairs_before = pairs_before;
   for (LinkStep& step : steps) journal.push(std::move(step));
   journal.restored_steps_ = journal.steps_.size();
   return journal;

@@ -69,10 +69,10 @@ class KnownResult {
 class LinkJournal {
  public:
   bool recording = false;
-  int64_t rays_before = 0;  // State::rays when the stage began
+  int64_t rays_before = 0, pairs_before = 0;  // State::rays and pairs when the stage began
 
   // For a stage with all that this number stands for; what is known of another one is forgotten.
-  void begin(uint64_t key, int64_t rays);
+  void begin(uint64_t key, int64_t rays, int64_t pairs);
   void clear() { *this = with(recording); }
   bool empty() const { return steps_.empty(); }
   int64_t bytes() const { return bytes_; }
@@ -80,8 +80,8 @@ class LinkJournal {
   // The next pass of the stage, in which every task has a name of its own. Passes follow each other
   // in the same way on all processes and every time.
   void next_pass();
-  // The result of a task of this pass, if it was done before. `use` is asked whether it fits, and
-  // takes it; of several it may take all. True when one did. Any thread.
+  // The results of a task of this pass that was done before, one after the other until `use` says
+  // that it has taken one: what it says no to must leave no trace. True when it did. Any thread.
   bool known(uint64_t name, const std::function<bool(KnownResult&)>& use) const;
   // Of a task that is to find one run of links: appends what is known of it, its links and rays.
   bool known_run(uint64_t name, const std::function<bool(NodeId)>& is_source,
@@ -100,7 +100,8 @@ class LinkJournal {
   const std::vector<LinkStep>& steps() const { return steps_; }
   // Of these so many, the first ones, come from a file, and all processes have them.
   size_t restored_steps() const { return restored_steps_; }
-  static LinkJournal restored(uint64_t key, int64_t rays_before, std::vector<LinkStep> steps);
+  static LinkJournal restored(uint64_t key, int64_t rays_before, int64_t pairs_before,
+                              std::vector<LinkStep> steps);
 
  private:
   static LinkJournal with(bool recording) {
@@ -122,6 +123,9 @@ class LinkJournal {
   std::vector<Entry> known_;  // of this pass, by name
   int64_t bytes_ = 0;
 };
+
+// What a task may have counted, so that sums of them stay within their type.
+inline bool is_count(int64_t number) { return number >= 0 && number <= int64_t{1} << 40; }
 
 // Links whose sources are what they may be, and whose weights are weights.
 bool are_links(const std::vector<Link>& links, const std::function<bool(NodeId)>& is_source);

@@ -45,6 +45,7 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
     first.push_back(static_cast<NodeId>(count));
     count += 4 * of_task.size();
   }
+  require_numbers(count);
   nodes.resize(count);
   state.radiosity.resize(count * bands);
   state.irradiance.resize(count * bands);

@@ -20,7 +20,7 @@ bool take_result(KnownResult& known, const PairTask& task, PairsFound& result) {
   Words words;
   if (!known.take(&result.rays, 1) || !known.take(&result.pairs, 1) ||
       !known.take(words.data(), words.size()) || !known.take_list(result.found) ||
-      !known.at_end() || result.rays < 0 || result.pairs < 0)
+      !known.at_end() || !is_count(result.rays) || !is_count(result.pairs))
     return false;
   for (size_t k = 0; k < result.looked_at.size(); ++k)
     result.looked_at[k] = (words[k / bits_of_a_word] >> k % bits_of_a_word & 1) != 0;
@@ -56,7 +56,7 @@ PairsFound known_pairs(const LinkJournal& journal, const PairTask& task,
     all.looked_at |= result.looked_at;
     for (const Reciprocal& r : result.found)
       if (mine[static_cast<size_t>(r.other - task.first)]) all.found.push_back(r);
-    return true;
+    return false;  // another one may be of other partners
   });
   std::sort(all.found.begin(), all.found.end(),
             [](const Reciprocal& a, const Reciprocal& b) { return a.other < b.other; });

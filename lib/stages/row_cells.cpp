@@ -14,6 +14,7 @@ namespace hrad {
 // Children of leaves, in the order of these; returns the first.
 NodeId RowMesh::add_children(const std::vector<NodeId>& parents) {
   const size_t first = forest_.nodes.size();
+  require_numbers(first + 4 * parents.size());
   forest_.nodes.resize(first + 4 * parents.size());
   for_each_thing(tools_.team, parents.size(), [&](size_t k) {
     place_children(forest_.nodes, parents[k], static_cast<NodeId>(first + 4 * k));
@@ -51,6 +52,7 @@ void RowMesh::make_cells() {
     state_.cells.insert(state_.cells.end(), cells.begin(), cells.end());
     add_children(those(true));
     measure_exposure(static_cast<NodeId>(end));
+    memory_.settle();
     from = end;
   }
 }

@@ -77,13 +77,13 @@ void add_result(LinkStep& step, uint64_t name, const SubtreeResult& result) {
 }
 
 bool take_result(KnownResult& known, const Forest& forest, NodeId root, size_t nodes,
-                 SubtreeResult& result) {
+                 SubtreeResult& taken) {
   const auto is_source = [&](NodeId id) { return id >= 0 && static_cast<size_t>(id) < nodes; };
   Head head;
-  if (!known.take(&head, 1) || head.rays < 0 || head.handed_on > 1 ||
+  if (!known.take(&head, 1) || !is_count(head.rays) || head.handed_on > 1 ||
       (head.handed_on == 1 && head.families != 1))
     return false;
-  result = SubtreeResult{};
+  SubtreeResult result;
   result.rays = head.rays;
   result.handed_on = head.handed_on == 1;
   result.nodes.emplace_back();
@@ -102,7 +102,9 @@ bool take_result(KnownResult& known, const Forest& forest, NodeId root, size_t n
                       std::all_of(node.meeting.begin(), node.meeting.end(), is_source)))
       return false;
   }
-  return known.at_end();
+  if (!known.at_end()) return false;
+  taken = std::move(result);
+  return true;
 }
 
 }  // namespace hrad

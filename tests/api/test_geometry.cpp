@@ -206,6 +206,20 @@ void scale_and_origin() {
   }
 }
 
+// By every method, up to the largest and the smallest scenes that are taken.
+void every_method_at_every_scale() {
+  for (const char* linking : {"pairs", "clusters", "rows"})
+    for (double factor : {1e-7, 1.0, 5e9, 5e10}) {
+      Scene scene = room();
+      scene.scale_and_move(factor, {});
+      Solution solution;
+      CHECK_EQUAL(hrad_set_text(solution.solver, "linking", linking), HRAD_OK);
+      solution.solve(scene);
+      CHECK_NEAR(mean_of_room(solution), empty_room(), 0.03 * empty_room());
+      CHECK_NEAR(solution.balance(), 1, 0.05);
+    }
+}
+
 void check_refused(const Scene& scene, const char* reason) {
   Solution solution;
   scene.add_to(solution.solver);
@@ -277,6 +291,7 @@ int main() {
       HRAD_TEST(the_wrong_way_round),
       HRAD_TEST(very_small_beside_large),
       HRAD_TEST(scale_and_origin),
+      HRAD_TEST(every_method_at_every_scale),
       HRAD_TEST(sizes_that_no_ray_can_serve),
       HRAD_TEST(nothing_to_solve),
       HRAD_TEST(emission_of_any_size),

@@ -80,11 +80,39 @@ static void limit_may_change(void** state) {
   hrad_destroy(&limited);
 }
 
+/* What a solve has needed for a while is given back: however many follow, with and without a
+ * journal of their steps, the limit is the same. */
+static void solves_leave_nothing_counted(void** state) {
+  const char* const linking[] = {"rows", "pairs"};
+  double light[3 * 36];
+  int64_t resumable;
+  int method, k, times;
+  (void)state;
+  for (method = 0; method < 2; ++method)
+    for (resumable = 0; resumable < 2; ++resumable) {
+      hrad_solver* solver = cornell(linking[method], 0, 1);
+      hrad_stats stats;
+      assert_ok(hrad_set_double(solver, "accuracy", 0.3));
+      assert_ok(hrad_set_int(solver, "resumable", resumable));
+      assert_ok(hrad_query_patches(solver, HRAD_EMISSION, HRAD_FRONT, 0, 36, light));
+      assert_ok(hrad_solve(solver));
+      stats = stats_of(solver);
+      assert_ok(hrad_set_int(solver, "max_memory", 4 * (stats.link_bytes + stats.node_bytes)));
+      for (times = 0; times < 5; ++times) {
+        for (k = 0; k < 3 * 36; ++k) light[k] *= 1.25;
+        assert_ok(hrad_set_emission(solver, 0, 36, light));
+        assert_true(hrad_solve(solver) >= 0);
+      }
+      hrad_destroy(&solver);
+    }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(scene_over_the_limit),
       cmocka_unit_test(solve_over_the_limit),
       cmocka_unit_test(limit_may_change),
+      cmocka_unit_test(solves_leave_nothing_counted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

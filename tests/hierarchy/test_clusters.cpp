@@ -50,6 +50,34 @@ void a_tree_may_hold_some_surfaces() {
     CHECK_EQUAL(forest.nodes[root].parent >= 0, root % 3 == 0);
 }
 
+// A tree made again from its order is the same to the last bit: what is linked may depend on it.
+void a_tree_is_restored_bit_by_bit() {
+  for (const char* name : names) {
+    const Clustered c(builtin_scene(name));
+    Forest again(c.scene);
+    std::vector<int32_t> left;
+    for (const Cluster& cluster : c.forest.clusters.clusters) {
+      Node node;
+      node.surface = -1 - static_cast<int32_t>(left.size());
+      again.nodes.push_back(node);
+      const Node& first = c.forest.nodes[cluster.child[0]];
+      left.push_back(Forest::is_cluster(first) ? c.forest.cluster(first).count : 1);
+    }
+    CHECK(restore_clusters(again, c.forest.clusters.order, left));
+    CHECK_EQUAL(again.clusters.clusters.size(), left.size());
+    for (size_t k = 0; k < left.size(); ++k) {
+      const Cluster &one = c.forest.clusters.clusters[k], &other = again.clusters.clusters[k];
+      for (int axis = 0; axis < 3; ++axis) {
+        CHECK(one.normal[axis] == other.normal[axis]);
+        CHECK(one.center[axis] == other.center[axis]);
+      }
+      CHECK(one.radius == other.radius && one.thickness == other.thickness);
+      CHECK(one.cone == other.cone && one.first == other.first && one.count == other.count);
+      CHECK(one.child[0] == other.child[0] && one.child[1] == other.child[1]);
+    }
+  }
+}
+
 void every_surface_hangs_in_the_tree_once() {
   for (const char* name : names) {
     const Clustered c(builtin_scene(name));
@@ -197,6 +225,7 @@ void keys_differ() {
 int main() {
   const CMUnitTest tests[] = {
       HRAD_TEST(a_tree_may_hold_some_surfaces),
+      HRAD_TEST(a_tree_is_restored_bit_by_bit),
       HRAD_TEST(every_surface_hangs_in_the_tree_once),
       HRAD_TEST(bounds_hold_what_is_in_them),
       HRAD_TEST(few_clusters_are_unlinkable),

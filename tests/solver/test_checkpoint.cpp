@@ -59,6 +59,33 @@ void same_solvers(const Solver& one, const Solver& other) {
     if (row.is_result) CHECK(same_value(one.params(), other.params(), row));
 }
 
+// A sliver part of which is within a solid has points of its own, whose places are finite.
+void slivers_in_solids_are_read_back() {
+  const Folder folder("checkpoint");
+  for (double width : {1e-2, 1e-7, 1e-8, 1e-11}) {
+    Solver solver, other;
+    solver.add_material({"wall", {0.5, 0.5, 0.5}, {0, 0, 0}});
+    solver.add_material({"lamp", {0.5, 0.5, 0.5}, {100, 100, 100}});
+    const double box[] = {1, -1, 0, 3, -1, 0, 1, 1, 0, 3, 1, 0,
+                          1, -1, 1, 3, -1, 1, 1, 1, 1, 3, 1, 1};
+    const int64_t faces[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                             2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+    solver.add_patches(8, box, 12, faces, nullptr);
+    const double rest[] = {0,  0,    0.5, 4,  0,    0.5, 2, width, 0.5, 0, -2,
+                           3,  0,    2,   3,  4,    2,   3, 4,     -2,  3, -2,
+                           -3, -0.5, 6,   -3, -0.5, 6,   3, -0.5,  -2,  3, -0.5};
+    const int64_t corners[] = {0, 1, 2, 3, 4, 5, 3, 5, 6, 7, 8, 9, 7, 9, 10};
+    const int32_t kinds[] = {0, 1, 1, 0, 0};
+    solver.add_patches(11, rest, 5, corners, kinds);
+    solver.set_text("linking", "rows");
+    solver.set_double("accuracy", 0.2);
+    CHECK(static_cast<int>(solver.solve()) >= 0);
+    solver.write_checkpoint(folder.file("sliver.hrad"));
+    other.read_checkpoint(folder.file("sliver.hrad"));
+    CHECK(solver.state_hash() == other.state_hash());
+  }
+}
+
 void what_is_read_is_what_was_written() {
   const Folder folder("round-trip");
   for (const SolveCase& c : cases) {
@@ -211,6 +238,7 @@ int main() {
                               HRAD_TEST(the_parameters_of_the_file_hold),
                               HRAD_TEST(what_can_not_be_read_changes_nothing),
                               HRAD_TEST(older_files_are_kept),
+                              HRAD_TEST(slivers_in_solids_are_read_back),
                               HRAD_TEST(a_second_writer_is_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -223,16 +223,39 @@ std::string with(Section section, const std::function<void(std::vector<FrameRun>
   return file_of(frame);
 }
 
-std::string with_sizes(size_t which, uint64_t value) {
-  return with(Section::sizes, [&](std::vector<FrameRun>& runs) {
-    hrad::PackedReader old(runs[0].raw.data(), runs[0].raw.size(), {"sizes", 0});
-    PackedBytes bytes;
-    for (size_t k = 0; old.left() > 0; ++k) {
-      const uint64_t kept = old.varint();
-      bytes.varint(k == which ? value : kept);
-    }
-    runs[0].raw = bytes.bytes();
-  });
+std::vector<uint64_t> sizes_in(const std::string& raw) {
+  hrad::PackedReader reader(raw.data(), raw.size(), {"sizes", 0});
+  std::vector<uint64_t> sizes;
+  while (reader.left() > 0) sizes.push_back(reader.varint());
+  return sizes;
+}
+
+std::string with_sizes(size_t which, uint64_t value, size_t file = 0) {
+  return with(
+      Section::sizes,
+      [&](std::vector<FrameRun>& runs) {
+        std::vector<uint64_t> sizes = sizes_in(runs[0].raw);
+        sizes[which] = value;
+        PackedBytes bytes;
+        for (uint64_t size : sizes) bytes.varint(size);
+        runs[0].raw = bytes.bytes();
+      },
+      file);
+}
+
+// Means of direct light are those of rows: a mesh that rounds refine has none.
+void direct_light_without_rows_is_refused() {
+  constexpr size_t surfaces = 4, clusters = 5, families = 6, cells = 8, receivers_of_means = 9;
+  int refused = 0;
+  for (size_t file = 0; file < good_files().size(); ++file) {
+    const Frame frame = frame_of(good_files()[file]);
+    const std::vector<uint64_t> sizes = sizes_in(frame[static_cast<size_t>(Section::sizes)][0].raw);
+    const uint64_t nodes = sizes[surfaces] + sizes[clusters] + 4 * sizes[families];
+    if (sizes[cells] > 0 || nodes == 0) continue;
+    refuses(with_sizes(receivers_of_means, nodes, file), "don't fit together");
+    ++refused;
+  }
+  CHECK(refused >= 2);
 }
 
 void huge_counts_are_refused() {
@@ -339,6 +362,7 @@ int main() {
                               HRAD_TEST(steps_of_version_1_are_done_again),
                               HRAD_TEST(any_steps_of_any_method_are_refused_or_harmless),
                               HRAD_TEST(huge_counts_are_refused),
+                              HRAD_TEST(direct_light_without_rows_is_refused),
                               HRAD_TEST(bombs_are_refused),
                               HRAD_TEST(expanded_runs_are_counted),
                               HRAD_TEST(impossible_trees_are_refused),
