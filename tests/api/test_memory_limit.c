@@ -97,8 +97,8 @@ static void solves_leave_nothing_counted(void** state) {
       assert_ok(hrad_query_patches(solver, HRAD_EMISSION, HRAD_FRONT, 0, 36, light));
       assert_ok(hrad_solve(solver));
       stats = stats_of(solver);
-      assert_ok(hrad_set_int(solver, "max_memory", 4 * (stats.link_bytes + stats.node_bytes)));
-      for (times = 0; times < 5; ++times) {
+      assert_ok(hrad_set_int(solver, "max_memory", 6 * (stats.link_bytes + stats.node_bytes)));
+      for (times = 0; times < 8; ++times) {
         for (k = 0; k < 3 * 36; ++k) light[k] *= 1.25;
         assert_ok(hrad_set_emission(solver, 0, 36, light));
         assert_true(hrad_solve(solver) >= 0);
