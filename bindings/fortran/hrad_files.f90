@@ -18,7 +18,8 @@ contains
   ! Writes a checkpoint (.hrad) at any time between other calls, or from the progress callback of a
   ! solve. The file appears whole under its name or not at all; older ones stay as PATH.prev,
   ! PATH.prev2 and so on, as the parameter checkpoint_keep says. Errors: FILE (the old file is
-  ! whole), also when another process holds the lock.
+  ! whole), also when another process holds the lock; STATE from the callback while there is nothing
+  ! to go on from, or of several ranks, which must write together.
   subroutine hrad_write_checkpoint(solver, path, status)
     type(hrad_solver), intent(in) :: solver
     character(len=*), intent(in) :: path

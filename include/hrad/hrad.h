@@ -288,7 +288,9 @@ HRAD_API hrad_status hrad_set_reflectance(hrad_solver *solver, int64_t first_pat
 
 /* [C] Closes the scene, builds the visibility structure and gives every patch an owner (the paper's
  * Initial Stage). Optional: hrad_solve does it. Errors: SCENE for a scene without patches,
- * smaller than 1e-8, larger than 1e11 or more than 1e10 of its radii from the origin; MEMORY. */
+ * smaller than 1e-8, larger than 1e11 or more than 1e10 of its radii from the origin; MEMORY;
+ * UNSUPPORTED for a ray engine that is not in this build; ARGUMENT on several ranks whose result
+ * parameters or scenes differ. */
 HRAD_API hrad_status hrad_partition(hrad_solver *solver);
 
 /* [L] The rank that owns a patch: 0 in a solver made by hrad_create. With several ranks patches may
@@ -410,8 +412,8 @@ HRAD_API hrad_status hrad_query_patches(const hrad_solver *solver, int32_t quant
 
 /* [C] A quantity at points of patches: point i lies at (1-u-v)*corner0 + u*corner1 + v*corner2 of
  * patch[i] with u = uv[2*i], v = uv[2*i+1], u, v >= 0, u+v <= 1 (with a margin of 1e-9). Linear
- * reconstruction from the leaves; a sealed point answers B = E, H = 0. count*bands values. Errors as
- * for hrad_query_patches. */
+ * reconstruction from the leaves; a sealed point answers B = E, H = 0. count*bands values. Errors:
+ * ARGUMENT for ranges; STATE before a solve. */
 HRAD_API hrad_status hrad_query_points(const hrad_solver *solver, int32_t quantity, int32_t side,
                                        int64_t count, const int64_t *patch, const double *uv,
                                        double *out);
@@ -491,7 +493,7 @@ HRAD_API hrad_status hrad_describe_checkpoint(const char *path, char *text, int6
  * corners, area, mean radiosity per band), .vtu (VTK unstructured grid), .ply (polygon file) or .glb
  * (binary glTF 2.0): README, "Files it writes"; .obj writes the scene itself with its .mtl beside it
  * and needs no solve. The file appears whole under its name or not at all. Errors: ARGUMENT for another
- * ending, FILE, STATE before a solve, UNSUPPORTED for a solution larger than the format can hold (.glb:
+ * ending, or .obj with other bands than 1 or 3, FILE, STATE before a solve, UNSUPPORTED for a solution larger than the format can hold (.glb:
  * 4 GiB). */
 HRAD_API hrad_status hrad_export(const hrad_solver *solver, const char *path);
 

@@ -11,9 +11,8 @@ const hrad::ParamRow& row_of_type(const char* name, int32_t type) {
   const hrad::ParamRow& row = hrad::find_param(name);
   const char* const suffix[] = {"int", "double", "text"};
   if (row.type != type)
-    hrad::fail(hrad::Status::argument,
-               "parameter '%s' is not of type %s: read it with hrad_get_%s or hrad_get_text", name,
-               suffix[type], suffix[row.type]);
+    hrad::fail(hrad::Status::argument, "parameter '%s' is not of type %s: read it with hrad_get_%s",
+               name, suffix[type], suffix[row.type]);
   return row;
 }
 

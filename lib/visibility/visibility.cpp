@@ -64,7 +64,10 @@ std::unique_ptr<VisibilityEngine> make_visibility_engine(const Scene& scene,
   for (const EngineEntry& entry : engines) {
     if (name == entry.name) {
       if (!entry.make)
-        fail(Status::unsupported, "this build has no visibility engine '%s'", name.c_str());
+        fail(Status::unsupported,
+             "this build has no visibility engine '%s': build it where CMake finds that, or leave "
+             "the parameter 'visibility' out",
+             name.c_str());
       return entry.make(scene, instruction_set, team);
     }
     names += names.empty() ? entry.name : std::string(", ") + entry.name;
