@@ -91,7 +91,15 @@ void solve_to_the_end(SolverRank& one) {
 
 void going_on_is_as_good() {
   for (const Case& c : cases()) {
-    const std::string wanted = hash_of_one(c.scene, c.linking, c.accuracy);
+    // The pairs that were looked at, and the hash, of a solve without a stop.
+    const auto straight = solve_together(1, [&](SolverRank& one) {
+      one.prepare(c.scene, c.linking, c.accuracy);
+      one.note(hrad_solve(one.solver));
+      one.note_number(static_cast<uint64_t>(one.stats().pairs));
+      one.note_hash();
+    });
+    const std::string wanted = last_of(straight), pairs = straight[straight.size() - 2].text;
+    CHECK(pairs != "0" || std::string(c.linking) != "pairs");
     for (int resumable : {0, 1}) {
       Stops stops;
       stops.points = c.points;
@@ -103,10 +111,12 @@ void going_on_is_as_good() {
         one.note(hrad_partition(one.solver));
         if (one.rank == 0) hrad_set_progress(one.solver, Stops::asked, &stops);
         solve_to_the_end(one);
+        one.note_number(static_cast<uint64_t>(one.stats().pairs));
         one.note_hash();
       });
       CHECK(errors_of(answers).empty());
       CHECK(last_of(answers) == wanted);
+      CHECK(answers[answers.size() - 2].text == pairs);
       size_t stopped = 0;
       for (const Answer& answer : answers) stopped += answer.status == HRAD_STOPPED;
       CHECK(stopped >= 4);
