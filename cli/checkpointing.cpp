@@ -24,13 +24,6 @@ bool is_sound(const std::string& path) {
                             HRAD_OK) != 0;
 }
 
-hrad_stats stats_of(const hrad_solver* solver) {
-  hrad_stats stats{};
-  stats.struct_size = sizeof stats;
-  check(hrad_get_stats(solver, &stats));
-  return stats;
-}
-
 }  // namespace
 
 Checkpointing::Checkpointing(Session* session, CheckpointPlan plan)
@@ -73,7 +66,7 @@ void Checkpointing::restart_automatically() {
   const bool is_there = exists(plan_.path), previous_is_there = exists(previous);
   if (!is_there && !previous_is_there) return;
   if (is_there && restart_from(plan_.path)) {
-    const hrad_stats stats = stats_of(session_->solver());
+    const hrad_stats stats = session_->stats();
     sweeps_written_ = stats.iterations;
     converged_written_ = stats.converged;
     return;
@@ -141,15 +134,14 @@ void Checkpointing::check_end() const {
 
 // A solve that did nothing leaves the file as it is.
 bool Checkpointing::has_news() const {
-  const hrad_stats stats = stats_of(session_->solver());
+  const hrad_stats stats = session_->stats();
   return launcher::of_first(stats.iterations != sweeps_written_ ||
                             stats.converged != converged_written_) != 0;
 }
 
 void Checkpointing::write() {
-  hrad_solver* solver = session_->solver();
-  check(hrad_write_checkpoint(solver, plan_.path.c_str()));
-  const hrad_stats stats = stats_of(solver);
+  check(hrad_write_checkpoint(session_->solver(), plan_.path.c_str()));
+  const hrad_stats stats = session_->stats();
   sweeps_written_ = stats.iterations;
   converged_written_ = stats.converged;
 }

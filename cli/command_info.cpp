@@ -64,8 +64,7 @@ SolutionReport make_solution_report(Session* session, const std::string& path) {
     if (colon != std::string_view::npos)
       report.description.emplace_back(line.substr(0, colon), line.substr(colon + 2));
   }
-  report.stats.struct_size = sizeof report.stats;
-  check(hrad_get_stats(session->solver(), &report.stats));
+  report.stats = session->stats();
   int64_t leaves = 0;
   report.is_solved = hrad_leaf_count(session->solver(), &leaves) == HRAD_OK;
   if (!report.is_solved) return report;

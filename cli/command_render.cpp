@@ -82,7 +82,7 @@ int run_render(const std::vector<std::string>& arguments, Output* output) {
   session.load();
   // The camera is found before the solve, so that one that can't be used costs no time.
   Geometry geometry = fetch_geometry(&session);
-  const Camera camera = render.camera(geometry, session.up_axis());
+  const Camera camera = render.camera(geometry, session.stats().up_axis);
   const int code = session.solve();
   const auto start = std::chrono::steady_clock::now();
   const Picture picture = make_picture(&session, geometry, camera, render.picture());

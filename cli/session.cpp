@@ -183,10 +183,7 @@ int Session::take_as_it_is() {
   if (hrad_leaf_count(solver_, &leaves) == HRAD_ERROR_STATE)
     throw Failure(exit_checkpoint, path + " holds no solution yet: its solve was stopped before",
                   "'hrad solve " + path + "' goes on with it");
-  hrad_stats stats{};
-  stats.struct_size = sizeof stats;
-  check(hrad_get_stats(solver_, &stats));
-  if (stats.converged != 0) return exit_done;
+  if (stats().converged != 0) return exit_done;
   if (terminal_.verbosity() != Verbosity::quiet)
     terminal_.say("warning: " + path +
                   " holds a solution that has not converged ('hrad solve' goes on with it)");
@@ -221,11 +218,11 @@ std::string Session::parameter(const char* name) const {
   });
 }
 
-int32_t Session::up_axis() const {
+hrad_stats Session::stats() const {
   hrad_stats stats{};
   stats.struct_size = sizeof stats;
   check(hrad_get_stats(solver_, &stats));
-  return stats.up_axis;
+  return stats;
 }
 
 std::vector<std::string> Session::diagnostics() const {

@@ -45,7 +45,7 @@ class Session {
   int64_t bands() const;
   int64_t patches() const;
   std::string parameter(const char* name) const;
-  int32_t up_axis() const;  // of the scene, as hrad_stats has it
+  hrad_stats stats() const;
   std::vector<std::string> diagnostics() const;
 
  private:

@@ -96,8 +96,7 @@ SolveReport make_report(Session* session, const std::string& scene, int exit_cod
   SolveReport report;
   report.scene = scene;
   report.status = exit_code == exit_not_converged ? HRAD_NOT_CONVERGED : HRAD_OK;
-  report.stats.struct_size = sizeof report.stats;
-  check(hrad_get_stats(session->solver(), &report.stats));
+  report.stats = session->stats();
   report.stats.seconds_output += seconds_output;
   const auto bands = static_cast<size_t>(session->bands());
   for (auto* values : {&report.emitted, &report.absorbed, &report.absorbed_back, &report.escaped})

@@ -31,12 +31,13 @@
 ! triangles), uv(2, count), corners_xyz(3, 3, count). A wrong shape is HRAD_ERROR_ARGUMENT. Sections
 ! that are not contiguous are copied.
 !
-! RANKS: collective, to be called by all ranks in the same order, is what hrad.h marks [C]: nearly
-! everything but hrad_get_patch, _material, _diagnostic, _stats and the numbers and texts of
-! parameters. Arrays of a scene, and of emission and reflectance, count on rank 0: others may hand
-! over (3, 0), (bands, 0). A query answers every rank what it asks for itself, also for 0 values. A
-! wrong shape is found before the call: the rank that has it makes no call, and the others wait for
-! it; without `status` it ends the job.
+! RANKS: collective, to be called by all ranks in the same order, is what hrad.h marks [C]: all but
+! hrad_scene_name, hrad_scene_size, hrad_patch_owner, hrad_get_patch, _material, _diagnostic, _int,
+! _double and _text, hrad_describe_param, _machine and _checkpoint, hrad_set_log, hrad_set_progress
+! and hrad_request_stop, and what asks for no solver. Arrays of a scene, and of emission and
+! reflectance, count on rank 0: others may hand over (3, 0), (bands, 0). A query answers every rank
+! what it asks for itself, also for 0 values. A wrong shape is found before the call: the rank that
+! has it makes no call, and the others wait for it; without `status` it ends the job.
 !
 ! TEXT: trailing blanks of arguments are dropped; results have the length that they need.
 !

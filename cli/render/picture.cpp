@@ -157,7 +157,7 @@ Picture make_picture(Session* session, const Geometry& geometry, const Camera& c
 Image make_automatic_picture(Session* session) {
   const Geometry geometry = fetch_geometry(session);
   const PictureOptions options;
-  const int up_axis = find_up_axis(geometry, session->up_axis());
+  const int up_axis = find_up_axis(geometry, session->stats().up_axis);
   const Camera camera = choose_camera(geometry, options.size, up_axis, {});
   return make_picture(session, geometry, camera, options).image;
 }

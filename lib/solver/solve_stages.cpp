@@ -75,16 +75,12 @@ bool Solver::Run::link() {
 }
 
 void Solver::Run::begin_journal(uint64_t key) {
-  const int64_t before = bytes_of(state_);
-  state_.journal.begin(key, state_.rays, state_.pairs);
+  counted(state_, [&] { state_.journal.begin(key, state_.rays, state_.pairs); });
   state_.journal.recording = params_.resumable != 0;
-  state_.memory.take(bytes_of(state_) - before, "");
 }
 
 void Solver::Run::forget_journal() {
-  const int64_t before = bytes_of(state_);
-  state_.journal.clear();
-  state_.memory.take(bytes_of(state_) - before, "");
+  counted(state_, [&] { state_.journal.clear(); });
 }
 
 bool Solver::Run::link_by_pairs() {

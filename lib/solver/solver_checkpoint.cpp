@@ -101,22 +101,22 @@ void Solver::take_over(CheckpointContent& content) {
   // Counts are added up over all ranks.
   state.rays = comm_->rank() == 0 ? content.rays : 0;
   state.pairs = comm_->rank() == 0 ? content.pairs : 0;
-  state.journal = LinkJournal::restored(content.key_of_steps, state.rays, state.pairs,
-                                        std::move(content.steps));
-  if (!content.state) return;
-  const int64_t before = bytes_of(state);
-  state.forest = std::move(content.state->forest);
-  state.forest.scene = &scene_;
-  state.links = std::move(content.state->links);
-  state.cells = std::move(content.state->cells);
-  state.direct = std::move(content.state->direct);
-  state.radiosity = std::move(content.state->radiosity);
-  state.irradiance = std::move(content.state->irradiance);
-  keep_own_links(state, *s.exchange);
-  s.exchange->forget();
-  s.exchange->ask_for_sources(state);
-  state.memory.take(bytes_of(state) - before, "links and elements");
-  s.leaves = state.forest.leaves();
+  counted(state, [&] {
+    state.journal = LinkJournal::restored(content.key_of_steps, state.rays, state.pairs,
+                                          std::move(content.steps));
+    if (!content.state) return;
+    state.forest = std::move(content.state->forest);
+    state.forest.scene = &scene_;
+    state.links = std::move(content.state->links);
+    state.cells = std::move(content.state->cells);
+    state.direct = std::move(content.state->direct);
+    state.radiosity = std::move(content.state->radiosity);
+    state.irradiance = std::move(content.state->irradiance);
+    keep_own_links(state, *s.exchange);
+    s.exchange->forget();
+    s.exchange->ask_for_sources(state);
+  });
+  if (content.state) s.leaves = state.forest.leaves();
 }
 
 // Rank 0 alone opens the file.

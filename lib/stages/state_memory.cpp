@@ -43,13 +43,13 @@ void shrink_to_fit(State& state) {
 }
 
 void clear(State& state) {
-  const int64_t before = bytes_of(state);
-  state.forest = Forest(*state.forest.scene);
-  state.links = LinkTable();
-  state.cells = std::vector<NodeId>();
-  state.direct = CornerLight();
-  for (auto* light : {&state.radiosity, &state.irradiance}) *light = std::vector<float>();
-  state.memory.take(bytes_of(state) - before, "");
+  counted(state, [&] {
+    state.forest = Forest(*state.forest.scene);
+    state.links = LinkTable();
+    state.cells = std::vector<NodeId>();
+    state.direct = CornerLight();
+    for (auto* light : {&state.radiosity, &state.irradiance}) *light = std::vector<float>();
+  });
 }
 
 }  // namespace hrad

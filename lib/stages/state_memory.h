@@ -19,6 +19,14 @@ void shrink_to_fit(State& state);
 // Back to the patches alone, and their memory.
 void clear(State& state);
 
+// Makes a change of a solution's arrays, and counts what they have grown or shrunk by.
+template <class Change>
+void counted(State& state, const Change& change) {
+  const int64_t before = bytes_of(state);
+  change();
+  state.memory.take(bytes_of(state) - before, "links and elements");
+}
+
 // Counts what a stage uses for a while, and at its end what the solution grew by instead.
 class StageMemory {
  public:
