@@ -191,6 +191,14 @@ bool WholeFile::keep_second_name() {
   fail_here("keep the old file", errno);
 }
 
+// A writer that ended before its last rename has left the old file both names.
+bool WholeFile::is_kept_already() const {
+  struct stat target, prev;
+  return ::lstat(target_.c_str(), &target) == 0 &&
+         ::lstat(name_of_older(1).c_str(), &prev) == 0 && target.st_dev == prev.st_dev &&
+         target.st_ino == prev.st_ino;
+}
+
 // Makes NAME.prev free.
 void WholeFile::move_older(int older) {
   for (int number = older; number > 1; --number)
@@ -208,7 +216,9 @@ void WholeFile::commit_keeping(int older) {
   finish();
   if (older < 1) return commit();
   const std::string prev = name_of_older(1);
-  if (keep_second_name()) {
+  if (is_kept_already()) {
+    take_place();
+  } else if (keep_second_name()) {
     // At no time is the old content without a name.
     move_older(older);
     if (::rename(second_name_.c_str(), prev.c_str()) != 0) fail_here("keep the old file", errno);

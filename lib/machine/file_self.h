@@ -60,6 +60,7 @@ class WholeFile {
   void write_out();
   void write_here(uint64_t offset, const char* data, size_t size);
   std::string name_of_older(int number) const;
+  bool is_kept_already() const;
   bool keep_second_name();
   void move_older(int older);
   void take_place();

@@ -199,6 +199,25 @@ void what_can_not_be_kept_is_not_replaced() {
   ::rmdir((path + ".prev").c_str());
 }
 
+// As by a writer that was killed between its last two renames: .prev and the file are one. A rename
+// of one name of a file to another would do nothing, and the temporary name would stay.
+void older_files_are_kept_after_a_writer_was_killed() {
+  Folder folder;
+  const std::string path = folder.path + "/out";
+  put(path, "second");
+  put(path + ".prev2", "first");
+  CHECK_EQUAL(::link(path.c_str(), (path + ".prev").c_str()), 0);
+  {
+    WholeFile file(path);
+    file.text("third");
+    file.commit_keeping(2);
+  }
+  CHECK(content(path) == "third");
+  CHECK(content(path + ".prev") == "second");
+  CHECK(content(path + ".prev2") == "first");
+  CHECK_EQUAL(folder.entries(), 3);
+}
+
 void reading() {
   Folder folder;
   const std::string path = folder.path + "/in";
@@ -233,6 +252,7 @@ int main() {
       HRAD_TEST(mode_and_links_are_kept),
       HRAD_TEST(the_longest_name_works),
       HRAD_TEST(what_can_not_be_kept_is_not_replaced),
+      HRAD_TEST(older_files_are_kept_after_a_writer_was_killed),
       HRAD_TEST(reading),
       HRAD_TEST(refused_targets),
       HRAD_TEST(failed_writes_leave_nothing),
