@@ -156,8 +156,8 @@ void add_blackboards(Scene& scene, const Layout& layout, const Palette& p) {
     add_box(scene, place, {-half - bar, 0, low}, {-half, thick, high}, p.frame);
     add_box(scene, place, {half, 0, low}, {half + bar, thick, high}, p.frame);
     add_box(scene, place, {-half, thick, low - bar}, {half, thick + 60, low - bar + 15}, p.frame);
-    add_desk(scene, place.at({800, 1500, 0}, 2), 1600, 700, p.desk);
-    add_chair(scene, place.at({200, 850, 0}, 2), p.chair);
+    add_desk(scene, place.at({800, 1500, 0}, true), 1600, 700, p.desk);
+    add_chair(scene, place.at({200, 850, 0}, true), p.chair);
   }
 }
 

@@ -30,8 +30,8 @@ void generate_furnished_room(Scene& scene, int) {
   add_table(scene, {{1600, 1100, 0}}, 1600, 800, wood);
   add_chair(scene, {{1750, 1720, 0}}, dark_wood);
   add_chair(scene, {{2600, 1740, 0}}, dark_wood);
-  add_chair(scene, {{2200, 1260, 0}, 2}, dark_wood);
-  add_chair(scene, {{3050, 1280, 0}, 2}, dark_wood);
+  add_chair(scene, {{2200, 1260, 0}, true}, dark_wood);
+  add_chair(scene, {{3050, 1280, 0}, true}, dark_wood);
 
   constexpr int32_t bookcase_width = 1200;
   const Place bookcase{{600, size.y - 20, 0}};

@@ -29,19 +29,6 @@ void add_box_faces(Scene& scene, GridPoint low, GridPoint high, const BoxMateria
 // A quotient, not a product with 0.001: the nearest double to the decimal fraction.
 Vec3 metres(GridPoint p) { return {p.x / 1000.0, p.y / 1000.0, p.z / 1000.0}; }
 
-GridPoint Place::operator()(GridPoint local) const {
-  switch (quarter_turns) {
-    case 1:
-      return origin + GridPoint{-local.y, local.x, local.z};
-    case 2:
-      return origin + GridPoint{-local.x, -local.y, local.z};
-    case 3:
-      return origin + GridPoint{local.y, -local.x, local.z};
-    default:
-      return origin + local;
-  }
-}
-
 BoxMaterials all_faces(int32_t material) {
   BoxMaterials materials;
   materials.fill(material);

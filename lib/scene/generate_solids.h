@@ -18,15 +18,16 @@ inline GridPoint operator+(GridPoint a, GridPoint b) { return {a.x + b.x, a.y + 
 
 Vec3 metres(GridPoint p);
 
-// Where a piece of furniture stands: turned about z by quarter turns (anticlockwise seen from
-// above), then moved to `origin`.
+// Where a piece of furniture stands: its front or its back towards us, then moved to `origin`.
 struct Place {
   GridPoint origin;
-  int quarter_turns = 0;  // 0..3
-  GridPoint operator()(GridPoint local) const;
-  // The place of something that stands at `local` of this one.
-  Place at(GridPoint local, int more_quarter_turns = 0) const {
-    return {(*this)(local), (quarter_turns + more_quarter_turns) % 4};
+  bool turned = false;  // about z, half round
+  GridPoint operator()(GridPoint local) const {
+    return origin + (turned ? GridPoint{-local.x, -local.y, local.z} : local);
+  }
+  // The place of something that stands at `local` of this one, turned against it or not.
+  Place at(GridPoint local, bool against = false) const {
+    return {(*this)(local), turned != against};
   }
 };
 

@@ -164,19 +164,12 @@ void unpack_patches(PackedReader& bytes, int64_t first, int64_t end, Scene& scen
   }
 }
 
-namespace {
-
-std::string counts_differ(const char* what, size_t of_file, size_t here) {
-  return format("the file has %zu %s and the scene %zu", of_file, what, here);
-}
-
-}  // namespace
-
 std::string difference_of(const Scene& of_file, const Scene& here) {
   if (of_file.bands != here.bands)
     return format("the file has %d bands and the scene %d", of_file.bands, here.bands);
   if (of_file.patch_count() != here.patch_count())
-    return counts_differ("patches", of_file.corners.size(), here.corners.size());
+    return format("the file has %zu patches and the scene %zu", of_file.corners.size(),
+                  here.corners.size());
   for (int64_t patch = 0; patch < here.patch_count(); ++patch) {
     const Triangle a = of_file.triangle(patch), b = here.triangle(patch);
     const Vec3 from[3] = {a.a, a.b, a.c}, to[3] = {b.a, b.b, b.c};

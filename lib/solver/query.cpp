@@ -9,21 +9,6 @@
 namespace hrad {
 namespace {
 
-void check_range(const char* what, int64_t first, int64_t count, int64_t size) {
-  if (first < 0 || count < 0 || first > size || count > size - first)
-    fail(Status::argument, "%lld %s from %lld on: there are %lld, from 0 on",
-         static_cast<long long>(count), what, static_cast<long long>(first),
-         static_cast<long long>(size));
-}
-
-void check_quantity(Quantity quantity, int32_t side) {
-  if (quantity < Quantity::radiosity || quantity > Quantity::net_flux)
-    fail(Status::argument, "quantity %d: use HRAD_RADIOSITY, _IRRADIANCE, _EMISSION or _NET_FLUX",
-         static_cast<int>(quantity));
-  if (side != 0 && side != 1)
-    fail(Status::argument, "side %d: use HRAD_FRONT or HRAD_BACK", static_cast<int>(side));
-}
-
 // From the irradiance over the whole area: radiosity there is B = E + rho H.
 double value_of(Quantity quantity, double emission, double reflectance, double irradiance) {
   switch (quantity) {
@@ -91,8 +76,6 @@ void Solver::require_solved() const {
 
 void Solver::query_patches(Quantity quantity, int32_t side, int64_t first, int64_t count,
                            double* out) const {
-  check_quantity(quantity, side);
-  check_range("patches", first, count, scene_.patch_count());
   if (quantity != Quantity::emission) require_solved();
   comm_->all_go_on();  // nothing is answered to anyone unless all ask for what there is
   const int bands = scene_.bands;
@@ -118,18 +101,9 @@ void Solver::query_patches(Quantity quantity, int32_t side, int64_t first, int64
 
 void Solver::query_points(Quantity quantity, int32_t side, int64_t count, const int64_t* patch,
                           const double* uv, double* out) const {
-  check_quantity(quantity, side);
   require_solved();
   const State& state = solution_->state;
   const int bands = scene_.bands;
-  constexpr double margin = 1e-9;
-  for (int64_t k = 0; k < count; ++k) {
-    check_range("patch", patch[k], 1, scene_.patch_count());
-    const double u = uv[2 * k], v = uv[2 * k + 1];
-    if (!(u >= -margin && v >= -margin && u + v <= 1 + margin))
-      fail(Status::argument, "point %lld has u = %g, v = %g: it must lie in its patch",
-           static_cast<long long>(k), u, v);
-  }
   comm_->all_go_on();
   const Reconstruction& linear = reconstruction();
   for (int64_t k = 0; k < count; ++k) {

@@ -114,14 +114,6 @@ void Solver::query_sensors(int64_t count, const double* xyz, const double* norma
                            double* irradiance, double* standard_error) const {
   require_solved();
   const int bands = scene_.bands;
-  if (count < 0) fail(Status::argument, "%lld sensors", static_cast<long long>(count));
-  for (int64_t k = 0; k < 3 * count; ++k)
-    if (!std::isfinite(xyz[k]) || !std::isfinite(normal[k]))
-      fail(Status::argument, "sensor %lld has a coordinate that is not finite",
-           static_cast<long long>(k / 3));
-  for (int64_t k = 0; k < count; ++k)
-    if (normal[3 * k] == 0 && normal[3 * k + 1] == 0 && normal[3 * k + 2] == 0)
-      fail(Status::argument, "sensor %lld has a normal of length 0", static_cast<long long>(k));
   comm_->all_go_on();
   const RayGather gather(solution_->state, *solution_->engine);
   ThreadTeam& team = *solution_->team;

@@ -122,9 +122,6 @@ void Solver::deal_out(Solution& solution) const {
 
 int32_t Solver::patch_owner(int64_t patch) const {
   if (!solution_) fail(Status::state, "no patch has an owner yet: call hrad_partition first");
-  if (patch < 0 || patch >= scene_.patch_count())
-    fail(Status::argument, "patch %lld: the scene has %lld patches, from 0 on",
-         static_cast<long long>(patch), static_cast<long long>(scene_.patch_count()));
   // Who exchanges no light is nobody's work.
   const NodeId root = solution_->state.forest.root(patch, 0);
   return root < 0 ? 0 : solution_->exchange->owner(root);

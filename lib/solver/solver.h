@@ -74,7 +74,7 @@ class Solver {
   // partition and machine
   void partition();
   bool partitioned() const { return solution_ != nullptr; }
-  int32_t patch_owner(int64_t patch) const;
+  int32_t patch_owner(int64_t patch) const;  // of a patch that is there
   // What so many ranks would get by a method, "grid" or "cost"; partition() comes first.
   struct PartitionPlan plan_partition(const std::string& method, int32_t ranks);
   void export_partition(const std::string& method, int32_t ranks, const std::string& path);
@@ -86,7 +86,7 @@ class Solver {
   Stats stats() const;
   uint64_t state_hash() const;
 
-  // query; STATE before a solve
+  // query, of arguments that the caller has checked; STATE before a solve
   bool solved() const;
   void query_patches(Quantity quantity, int32_t side, int64_t first, int64_t count,
                      double* out) const;
@@ -128,8 +128,7 @@ class Solver {
   const class Reconstruction& reconstruction() const;
   void require_open() const;  // the scene may still grow
   void set_up_axis();         // of a scene that has just changed, where the parameter says
-  void check_arrays(int64_t n_vertices, const double* xyz, int64_t n_triangles,
-                    const int64_t* vertex) const;
+  void check_counts(int64_t n_vertices, int64_t n_triangles) const;
   void add_patches_here(int64_t n_vertices, const double* xyz, int64_t n_triangles,
                         const int64_t* vertex, const int32_t* material);
   std::vector<double> values_of_patches(int64_t& first, int64_t& count, const double* given) const;

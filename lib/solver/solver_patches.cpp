@@ -48,7 +48,7 @@ void Solver::add_patches(int64_t n_vertices, const double* xyz, int64_t n_triang
   }
   GivenPatches given;
   if (describes_scene()) {
-    check_arrays(n_vertices, xyz, n_triangles, vertex);
+    check_counts(n_vertices, n_triangles);
     given = GivenPatches(n_vertices, xyz, n_triangles, vertex, material);
   }
   given.broadcast(*comm_);
@@ -58,25 +58,18 @@ void Solver::add_patches(int64_t n_vertices, const double* xyz, int64_t n_triang
 }
 
 // Before the arrays are touched it is known that they can be that long.
-void Solver::check_arrays(int64_t n_vertices, const double* xyz, int64_t n_triangles,
-                          const int64_t* vertex) const {
-  if (n_vertices < 0 || n_triangles < 0)
-    fail(Status::argument, "%lld vertices and %lld triangles: counts can't be negative",
-         static_cast<long long>(n_vertices), static_cast<long long>(n_triangles));
+void Solver::check_counts(int64_t n_vertices, int64_t n_triangles) const {
   const auto vertices = static_cast<int64_t>(scene_.vertices.size());
   if (n_vertices > kMostPatches - vertices || n_triangles > kMostPatches - scene_.patch_count())
     fail(Status::argument,
          "%lld more vertices and %lld more triangles are too many: a scene has up to %lld of each",
          static_cast<long long>(n_vertices), static_cast<long long>(n_triangles),
          static_cast<long long>(kMostPatches));
-  if ((n_vertices > 0 && !xyz) || (n_triangles > 0 && !vertex))
-    fail(Status::argument, "the array of %s is NULL",
-         xyz || n_vertices == 0 ? "indices" : "coordinates");
 }
 
 void Solver::add_patches_here(int64_t n_vertices, const double* xyz, int64_t n_triangles,
                               const int64_t* vertex, const int32_t* material) {
-  check_arrays(n_vertices, xyz, n_triangles, vertex);
+  check_counts(n_vertices, n_triangles);
   for (int64_t i = 0; i < 3 * n_vertices; ++i)
     if (!(std::fabs(xyz[i]) <= kLargestCoordinate))
       fail(Status::argument,

@@ -115,11 +115,6 @@ void ClusterRefiner::weigh(Link link) {
     result_.run.push_back(link);
     return;
   }
-  // The link that everything starts from is none between two ends that stand apart.
-  if (meeting_of(receiver_, source, tools_.engine.offset() / 2) != Meeting::link) {
-    meet(link.source);
-    return;
-  }
   DrawnPairs drawn;
   LinkEstimate estimate;
   sampler_.begin(receiver_, source, sampler_.link_key(key_, key_of(state_.forest, place)), drawn,

@@ -1,4 +1,5 @@
 // Points on the exposed part of an element some of whose corners are sealed. Floor 7 (stages).
+#include <algorithm>
 #include <cmath>
 
 #include "links/element.h"
@@ -10,17 +11,15 @@ namespace {
 
 constexpr int tries_for_an_exposed_point = 64;
 constexpr int steps_to_a_border = 8;
+constexpr double least_length = 1e-150;  // whose square is a number
 
 // Three points that have the mean of every quadratic field over a trapezoid whose parallel sides
 // run from a to b and from a_far to b_far: its centroid and second moments are theirs.
 void points_of_trapezoid(Vec3 a, Vec3 b, Vec3 a_far, Vec3 b_far, Vec3 place[3]) {
   const Vec3 near = (a + b) * 0.5, far = (a_far + b_far) * 0.5, height = far - near;
   const double near_half = length(b - a) / 2, far_half = length(b_far - a_far) / 2;
-  const double sum = near_half + far_half;
-  if (!(sum > 0)) {
-    place[0] = place[1] = place[2] = near;
-    return;
-  }
+  // Two points, to rounding, have no length that a share could be of.
+  const double sum = std::max(near_half + far_half, least_length);
   const Vec3 middle = near + height * ((near_half + 2 * far_half) / (3 * sum));
   const Vec3 along = near_half > 0 ? (b - a) * (1 / (2 * near_half)) : Vec3{0, 0, 0};
   const double across = std::sqrt(1 + 2 * near_half * far_half / (sum * sum)) / 6;

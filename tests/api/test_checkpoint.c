@@ -147,8 +147,11 @@ static void the_progress_function_writes(void** state) {
 
 static void what_does_not_fit_is_refused(void** state) {
   hrad_solver *solver = room(0.2), *other = room(0.2), *third = new_solver();
+  static const char* const differences[] = {"corner 0 of patch 12 has x = ",
+                                            "patch 0 has the flags 0", "3 bands and the scene 1"};
   const double dim[3] = {1, 1, 1};
   uint64_t hash;
+  int k;
   FILE* file;
   (void)state;
   assert_ok(hrad_solve(solver));
@@ -161,6 +164,20 @@ static void what_does_not_fit_is_refused(void** state) {
   add_square(third, 0, 0, 0, 1, 0, add_gray(third, 0.5, 1, 0));
   assert_fails(hrad_read_checkpoint(third, path), HRAD_ERROR_STATE, "14 patches and the scene 2");
   assert_int_equal(patch_count(third), 2);
+  /* Nor one of which a corner or a flag differs, or the bands. */
+  for (k = 0; k < 3; ++k) {
+    hrad_solver* near = new_solver();
+    hrad_material wall = {.struct_size = sizeof wall, .flags = k == 1 ? HRAD_TWO_SIDED : 0};
+    if (k == 2) assert_ok(hrad_set_int(near, "bands", 1));
+    assert_ok(hrad_add_material(near, &wall, NULL));
+    add_gray(near, 0.1, k == 2 ? 0 : 10, 0);
+    add_room(near, 0);
+    add_square(near, 0.5, 0.5, 0.9, k == 0 ? 0.21 : 0.2, 1, 1);
+    assert_int_equal(patch_count(near), 14);
+    assert_fails(hrad_read_checkpoint(near, path), HRAD_ERROR_STATE, differences[k]);
+    assert_int_equal(patch_count(near), 14);
+    hrad_destroy(&near);
+  }
   /* Parameters of results hold from then on. */
   assert_fails(hrad_set_int(solver, "seed", 9), HRAD_ERROR_STATE, "'seed' is 1");
   assert_fails(hrad_set_text(other, "linking", "pairs"), HRAD_ERROR_STATE, "pairs");
@@ -208,6 +225,11 @@ static void any_scene_is_read_back(void** state) {
   hrad_destroy(&other);
 }
 
+static int32_t stop_in_refinement(const hrad_progress* progress, void* user) {
+  (void)user;
+  return strcmp(progress->stage, "refine") == 0;
+}
+
 static void a_file_is_described_without_a_solver(void** state) {
   hrad_solver* solver = room(0.2);
   char text[4096];
@@ -217,6 +239,12 @@ static void a_file_is_described_without_a_solver(void** state) {
   assert_ok(hrad_describe_checkpoint(path, text, sizeof text, &needed));
   assert_int_equal(needed, strlen(text) + 1);
   assert_non_null(strstr(text, "state: not begun\n"));
+  assert_ok(hrad_set_progress(solver, stop_in_refinement, NULL));
+  assert_status(hrad_solve(solver), HRAD_STOPPED);
+  assert_ok(hrad_write_checkpoint(solver, path));
+  assert_ok(hrad_describe_checkpoint(path, text, sizeof text, NULL));
+  assert_non_null(strstr(text, "state: stopped between rounds\n"));
+  assert_ok(hrad_set_progress(solver, NULL, NULL));
   assert_ok(hrad_solve(solver));
   assert_ok(hrad_write_checkpoint(solver, path));
   assert_ok(hrad_describe_checkpoint(path, text, sizeof text, NULL));

@@ -241,6 +241,20 @@ void a_spike_has_no_triangle() {
   CHECK_NEAR(area, 4, 1e-12);
 }
 
+// Along the sides it overlaps them, and is what is left when all ears are cut off.
+void a_spike_along_sides_has_no_triangle() {
+  for (double tip : {6.0, 8.0}) {
+    const Polygon p = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, tip, 0}, {4, 2, 0}, {0, 4, 0}};
+    double area = 0;
+    for (const auto& t : cut(p)) {
+      const double twice = cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]).z;
+      CHECK(twice > 0);
+      area += twice / 2;
+    }
+    CHECK_NEAR(area, 12, 1e-12);
+  }
+}
+
 void not_quite_flat() {
   Polygon p;
   for (Vec3 v : star(3, 40)) p.push_back({v.x, v.y, 0.01 * hrad::unit_interval(p.size() * 77)});
@@ -263,6 +277,7 @@ int main() {
       HRAD_TEST(large_ones),
       HRAD_TEST(what_is_no_polygon_becomes_a_fan),
       HRAD_TEST(a_spike_has_no_triangle),
+      HRAD_TEST(a_spike_along_sides_has_no_triangle),
       HRAD_TEST(not_quite_flat),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -232,6 +232,23 @@ void a_stop_leaves_the_state_as_it_was() {
   CHECK(same(bench.state, untouched.state));
 }
 
+// As a file may tell of: the top linked with itself, of any weight. It is as if there were no link
+// yet.
+void a_link_of_the_top_with_itself_is_met_anew() {
+  for (OracleKind kind : {OracleKind::error, OracleKind::energy}) {
+    const Clustered wanted(builtin_scene("furnished-room"), 0, 2, settings(1, kind));
+    Workbench told(builtin_scene("furnished-room"));
+    const OracleSettings oracle = fitted(settings(1, kind), told.state);
+    told.prepare_clusters(oracle);
+    const NodeId top = told.state.forest.top();
+    const Link link{top, 0.7f};
+    told.state.links.replace({{top, {&link, 1}}});
+    CHECK(refine_links(told.state, told.tools(oracle), expected_brightness(told.state)));
+    told.sweep(8);
+    CHECK(same(told.state, wanted.state));
+  }
+}
+
 // By pairs and by clusters, to the same settings: patch by patch the same light within what these
 // allow, from fewer links.
 void clusters_bring_the_light_of_pairs() {
@@ -269,10 +286,15 @@ void clusters_bring_the_light_of_pairs() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(rows_of_closed_scenes_sum_to_one),  HRAD_TEST(weights_are_shares_of_the_view),
-      HRAD_TEST(no_cluster_lights_itself),          HRAD_TEST(a_furnace_has_two_everywhere),
-      HRAD_TEST(light_is_pushed_and_pulled),        HRAD_TEST(threads_change_no_bit),
-      HRAD_TEST(a_stop_leaves_the_state_as_it_was), HRAD_TEST(clusters_bring_the_light_of_pairs),
+      HRAD_TEST(rows_of_closed_scenes_sum_to_one),
+      HRAD_TEST(weights_are_shares_of_the_view),
+      HRAD_TEST(no_cluster_lights_itself),
+      HRAD_TEST(a_furnace_has_two_everywhere),
+      HRAD_TEST(light_is_pushed_and_pulled),
+      HRAD_TEST(threads_change_no_bit),
+      HRAD_TEST(a_stop_leaves_the_state_as_it_was),
+      HRAD_TEST(a_link_of_the_top_with_itself_is_met_anew),
+      HRAD_TEST(clusters_bring_the_light_of_pairs),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

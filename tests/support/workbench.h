@@ -78,11 +78,16 @@ struct Workbench {
   }
 
   // The same by clusters.
-  void link_by_clusters(const hrad::OracleSettings& oracle) {
+  // Exposed shares and clusters; no links yet.
+  void prepare_clusters(const hrad::OracleSettings& oracle) {
     const hrad::LinkSampler measure = sampler(oracle.near_ratio, oracle.seed);
     for (hrad::Node& node : state.forest.nodes) node.exposed = measure.exposed_share(node);
     hrad::add_clusters(state.forest);
     prepare();
+  }
+
+  void link_by_clusters(const hrad::OracleSettings& oracle) {
+    prepare_clusters(oracle);
     CHECK(hrad::link_clusters(state, tools(oracle), hrad::expected_brightness(state)));
   }
 
