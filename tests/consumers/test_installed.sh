@@ -58,10 +58,8 @@ languages=(C CXX)
 if [[ -z $flags ]] && pkg-config --exists hrad-fortran; then
   languages+=(Fortran)
   echo "pkg-config, gfortran"
-  read -r -a linked <<<"$(pkg-config --cflags --libs --static hrad-fortran)"
-  gfortran -o heated_room consumers/fortran/room_mesh.f90 consumers/fortran/heated_room.f90 \
-    "${linked[@]}"
-  runs ./heated_room
+  make -s -C consumers/makefile heated_room
+  runs consumers/makefile/heated_room
 fi
 
 for language in "${languages[@]}"; do
