@@ -110,7 +110,8 @@ std::vector<int32_t> LightGrid::spread_over(const std::vector<int32_t>& fine) co
   return result;
 }
 
-int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm) {
+bool LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm,
+                     const Opener& opener, int64_t& rays) {
   const size_t first_coarse = add_cubes(coarse_, points, team);
   const size_t first_fine = add_cubes(fine_, points, team);
   std::vector<std::vector<int32_t>> within(coarse_.cubes.size() - first_coarse);
@@ -122,25 +123,42 @@ int64_t LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& te
   }
   for (size_t k = 0; k < within.size(); ++k)
     coarse_.cubes[first_coarse + k].points = spread_over(within[k]);
-  int64_t all = 0;
-  for (Grid* grid : {&coarse_, &fine_}) {
-    const size_t first = grid == &coarse_ ? first_coarse : first_fine;
-    std::vector<int64_t> rays(grid->cubes.size() - first, 0);
-    team.for_each(static_cast<int64_t>(rays.size()), [&](int64_t k, int) {
-      if (is_my_turn(comm, static_cast<size_t>(k)))
-        rays[k] = find_emitters(points, *grid, grid->cubes[first + static_cast<size_t>(k)]);
-    });
-    for (int64_t r : rays) all += r;
-    share(
-        comm, rays.size(),
-        [&](size_t k) { return static_cast<int>(k % static_cast<size_t>(comm.size())); },
-        [&](size_t k, Bytes& bytes) { put_list(bytes, grid->cubes[first + k].candidates); },
-        [&](size_t k, Taker& taker) {
-          grid->cubes[first + k].points = std::vector<int32_t>();
-          take_list(taker, grid->cubes[first + k].candidates);
-        });
+  return open_from(coarse_, first_coarse, points, comm, opener, rays) &&
+         open_from(fine_, first_fine, points, comm, opener, rays);
+}
+
+// The cubes from the first on. Processes take turns.
+bool LightGrid::open_from(Grid& grid, size_t first, const std::vector<OrientedPoint>& points,
+                          Comm& comm, const Opener& opener, int64_t& rays) {
+  const size_t count = grid.cubes.size() - first;
+  std::vector<Opened> own;
+  std::vector<size_t> cube_of;
+  for (size_t k = 0; k < count; ++k) {
+    if (!is_my_turn(comm, k)) continue;
+    cube_of.push_back(first + k);
+    own.push_back({key_of(grid, points[grid.cubes[first + k].points.front()]), {}, 0});
   }
-  return all;
+  const bool going_on = opener(own, [&](size_t k) {
+    own[k].rays = find_emitters(points, grid, grid.cubes[cube_of[k]], own[k].candidates);
+  });
+  if (!comm.all_go_on(going_on)) return false;
+  for (size_t k = 0; k < own.size(); ++k) {
+    rays += own[k].rays;
+    grid.cubes[cube_of[k]].candidates = std::move(own[k].candidates);
+  }
+  share(
+      comm, count, [&](size_t k) { return static_cast<int>(k % static_cast<size_t>(comm.size())); },
+      [&](size_t k, Bytes& bytes) { put_list(bytes, grid.cubes[first + k].candidates); },
+      [&](size_t k, Taker& taker) { take_list(taker, grid.cubes[first + k].candidates); });
+  for (size_t k = 0; k < count; ++k) grid.cubes[first + k].points = std::vector<int32_t>();
+  return true;
+}
+
+LightGrid::Opener opened_by(ThreadTeam& team) {
+  return [&team](std::vector<LightGrid::Opened>& cubes, const std::function<void(size_t)>& find) {
+    return team.for_each(static_cast<int64_t>(cubes.size()),
+                         [&](int64_t k, int) { find(static_cast<size_t>(k)); });
+  };
 }
 
 // What a coarse cube knows of an emitter, or of the groups around it or the parts within.
@@ -158,7 +176,7 @@ LightGrid::Seen LightGrid::seen_from(const Cube& cube, int32_t emitter) const {
 }
 
 int64_t LightGrid::find_emitters(const std::vector<OrientedPoint>& points, const Grid& grid,
-                                 Cube& cube) const {
+                                 const Cube& cube, std::vector<Candidate>& candidates) const {
   int64_t rays = 0;
   const Vec3 corner = corner_of(grid, points[cube.points.front()].place);
   const Vec3 center = engine_.center() + (corner + Vec3{0.5, 0.5, 0.5}) * grid.size;
@@ -185,11 +203,10 @@ int64_t LightGrid::find_emitters(const std::vector<OrientedPoint>& points, const
     // So much of it may be visible all the same.
     const double share = 1.0 / (16 * packets);
     if (is_hidden && !emitters_.is_sampled(emitter, factor * share)) continue;
-    cube.candidates.push_back({number, is_hidden});
+    candidates.push_back({number, is_hidden});
   }
-  std::sort(cube.candidates.begin(), cube.candidates.end(),
+  std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.emitter < b.emitter; });
-  cube.points = std::vector<int32_t>();
   return rays;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/number_table.h"
@@ -29,19 +30,30 @@ class LightGrid {
 
   const Emitters& emitters() const { return emitters_; }
 
+  struct Candidate {
+    int32_t emitter;
+    bool hidden;  // no pilot ray met it
+  };
+  // A cube that is being opened, by a name that tells it from all others of its size.
+  struct Opened {
+    uint64_t name;
+    std::vector<Candidate> candidates;
+    int64_t rays = 0;
+  };
+  // Runs find(k) for so many cubes, or gives them what it has found before; false: stopped.
+  using Opener =
+      std::function<bool(std::vector<Opened>& cubes, const std::function<void(size_t k)>& find)>;
   // Opens the cubes that these points lie in, if they aren't yet; their pilot rays start at the
   // points, which should be of all surfaces there. Collective: all give the same points, and each
-  // traces rays of some cubes. Returns the number of this process's rays.
-  int64_t open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm);
+  // traces rays of some cubes. Adds the number of this process's rays. False: stopped, and the
+  // grid is of no use any more.
+  bool open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm,
+            const Opener& opener, int64_t& rays);
   // Whether the cube that a point lies in has yet to be opened.
   bool is_closed(const OrientedPoint& point) const {
     return fine_.number.find(key_of(fine_, point)) == NumberTable::none;
   }
 
-  struct Candidate {
-    int32_t emitter;
-    bool hidden;  // no pilot ray met it
-  };
   // The emitters that can be worth sampling in an open cube, ascending.
   const std::vector<Candidate>& at(const OrientedPoint& point) const;
   // Whether all that comes from an emitter to an element comes by links of their own, so that rays
@@ -68,8 +80,10 @@ class LightGrid {
   size_t add_cubes(Grid& grid, const std::vector<OrientedPoint>& points, ThreadTeam& team) const;
   std::vector<int32_t> spread_over(const std::vector<int32_t>& fine) const;
   Seen seen_from(const Cube& cube, int32_t emitter) const;
+  bool open_from(Grid& grid, size_t first, const std::vector<OrientedPoint>& points, Comm& comm,
+                 const Opener& opener, int64_t& rays);
   int64_t find_emitters(const std::vector<OrientedPoint>& points, const Grid& grid,
-                        Cube& cube) const;
+                        const Cube& cube, std::vector<Candidate>& candidates) const;
   bool hidden(const Emitter& emitter, const std::vector<OrientedPoint>& points, const Cube& cube,
               int packets, int64_t& rays) const;
 
@@ -80,5 +94,8 @@ class LightGrid {
   // needs no pilot rays from each of the fine ones in it.
   Grid coarse_, fine_;
 };
+
+// All of them, on these threads.
+LightGrid::Opener opened_by(ThreadTeam& team);
 
 }  // namespace hrad

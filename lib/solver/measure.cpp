@@ -23,6 +23,17 @@ constexpr double precise_share = 0.35, precise_enough = 0.2;
 constexpr int cosine_rays_of_a_point = 4;
 constexpr double points_at_one_percent = 64, least_points = 16, most_points = 256;
 
+int points_of_a_half(double accuracy) {
+  return static_cast<int>(
+      std::max(least_points, std::min(most_points, points_at_one_percent * 0.01 / accuracy)));
+}
+
+// Until it is known better. Small errors are hard to tell from noise.
+double expected_batches(double accuracy) {
+  constexpr double accuracy_of_one = 0.06;
+  return std::max(1.0, std::min<double>(most_batches, accuracy_of_one / accuracy));
+}
+
 // One drawn patch, all bands together, over the chance that it was drawn with.
 struct Residual {
   double square = 0;  // of the difference between solved and measured; noise may make it negative
@@ -34,8 +45,8 @@ struct Residual {
 // The patch is measured twice, independently: the product of the two differences has the square of
 // the true one as its mean, without a bias by noise.
 Residual residual_of(const State& state, const StageTools& tools, const RayGather& rays,
-                     RayGather::NearEmitters& space, NodeId root, uint64_t key,
-                     int points_of_a_half, bool reflected) {
+                     RayGather::NearEmitters& space, NodeId root, uint64_t key, int points,
+                     bool reflected) {
   const Scene& scene = *state.forest.scene;
   const Surface& surface = state.forest.surfaces[root];
   const int bands = state.bands;
@@ -45,7 +56,7 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
   double sum[2][most_bands] = {};
   Residual r;
   for (uint64_t half = 0; half < 2; ++half)
-    for (uint32_t k = 0; k < static_cast<uint32_t>(points_of_a_half); ++k) {
+    for (uint32_t k = 0; k < static_cast<uint32_t>(points); ++k) {
       double p[4], value[most_bands], u, v;
       low_discrepancy_point(mix(key, half, 1), k, p);
       even_in_triangle(p[0], p[1], &u, &v);
@@ -62,8 +73,7 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
     const double solved =
         factor * exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
     double difference[2];
-    for (int half = 0; half < 2; ++half)
-      difference[half] = solved - factor * sum[half][b] / points_of_a_half;
+    for (int half = 0; half < 2; ++half) difference[half] = solved - factor * sum[half][b] / points;
     r.square += difference[0] * difference[1];
     r.solved += solved * solved;
     r.signed_sum += (difference[0] + difference[1]) / 2;
@@ -156,20 +166,27 @@ void evaluate(const std::vector<Residual>& residuals, double returned, ErrorEsti
 
 }  // namespace
 
-ErrorEstimate estimate_error(const State& state, const StageTools& tools, double accuracy) {
+double expected_rays_of_estimate(double accuracy) {
+  constexpr double rays_of_a_point = cosine_rays_of_a_point + RayGather::shadow_rays;
+  return expected_batches(accuracy) * patches_of_a_batch * 2 * points_of_a_half(accuracy) *
+         rays_of_a_point;
+}
+
+std::optional<ErrorEstimate> estimate_error(const State& state, const StageTools& tools,
+                                            double accuracy) {
   ErrorEstimate estimate;
   const Patches patches(state);
   if (patches.roots.empty()) return estimate;
   const Draw draw(patches.weights);
   const RayGather rays(state, tools.engine, RayGather::Solution::doubted);
-  const int points = static_cast<int>(
-      std::max(least_points, std::min(most_points, points_at_one_percent * 0.01 / accuracy)));
+  const int points = points_of_a_half(accuracy);
   std::vector<RayGather::NearEmitters> spaces(static_cast<size_t>(tools.team.size()));
   std::vector<Residual> residuals;
+  double batches = expected_batches(accuracy);
   for (int batch = 0; batch < most_batches; ++batch) {
     const size_t before = residuals.size();
     residuals.resize(before + patches_of_a_batch);
-    tools.team.for_each(patches_of_a_batch, [&](int64_t k, int worker) {
+    const auto measure = [&](int64_t k, int worker) {
       if (!tools.exchange.my_turn(k)) return;
       const size_t number = before + static_cast<size_t>(k);
       const uint64_t h = mix(tools.oracle.seed, number, 0x6572726f72u);
@@ -180,16 +197,23 @@ ErrorEstimate estimate_error(const State& state, const StageTools& tools, double
       const double worth = patches.areas[pick] / patches.weights[pick];
       for (double* value : {&r.square, &r.solved, &r.signed_sum, &r.solved_sum}) *value *= worth;
       residuals[number] = r;
+    };
+    const bool going_on = tools.team.for_each(patches_of_a_batch, measure, [&](int64_t done) {
+      return tools.progress((batch + static_cast<double>(done) / patches_of_a_batch) / batches);
     });
+    if (!tools.exchange.all_go_on(going_on)) return std::nullopt;
     for (size_t k = before; k < residuals.size(); ++k) estimate.rays += residuals[k].rays;
     std::vector<Residual> drawn(residuals.begin() + static_cast<std::ptrdiff_t>(before),
                                 residuals.end());
     tools.exchange.share_turns(drawn);
     std::copy(drawn.begin(), drawn.end(), residuals.begin() + static_cast<std::ptrdiff_t>(before));
     evaluate(residuals, patches.returned, estimate);
-    if (estimate.standard_error <
-        std::max(precise_share * estimate.error, precise_enough * accuracy))
-      break;
+    const double wanted = std::max(precise_share * estimate.error, precise_enough * accuracy);
+    if (estimate.standard_error < wanted) break;
+    const double short_by = estimate.standard_error / wanted;
+    batches = std::max(
+        batches,
+        std::min<double>(most_batches, std::max(batch + 2.0, (batch + 1) * short_by * short_by)));
   }
   return estimate;
 }

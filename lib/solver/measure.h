@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "stages/state.h"
@@ -17,8 +18,11 @@ struct ErrorEstimate {
 
 // Irradiance by rays against the solution's own on patches drawn by area. What is measured is the
 // residual of one bounce, of several where much is reflected; its mean is carried on through all
-// further bounces.
-ErrorEstimate estimate_error(const State& state, const StageTools& tools, double accuracy);
+// further bounces. Nothing: stopped.
+std::optional<ErrorEstimate> estimate_error(const State& state, const StageTools& tools,
+                                            double accuracy);
+// Rays that it may take, before anything is known of the error.
+double expected_rays_of_estimate(double accuracy);
 
 struct PowerBalance {
   std::vector<double> emitted, absorbed, absorbed_back, escaped;  // W per band
@@ -26,8 +30,10 @@ struct PowerBalance {
   int64_t rays = 0;
 };
 
+constexpr int64_t rays_of_the_balance = 131072;
+
 // Emitted by emission and areas, absorbed by fronts by the links' irradiance, the rest by rays that
-// carry the leaving power.
-PowerBalance measure_balance(const State& state, const StageTools& tools);
+// carry the leaving power. Nothing: stopped.
+std::optional<PowerBalance> measure_balance(const State& state, const StageTools& tools);
 
 }  // namespace hrad

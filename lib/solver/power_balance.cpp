@@ -12,8 +12,6 @@
 namespace hrad {
 namespace {
 
-constexpr int64_t rays_of_the_balance = 131072;
-
 Vec3 point_of(const Triangle& t, uint64_t hash) {
   double u = unit_interval(mix(hash, 1)), v = unit_interval(mix(hash, 2));
   fold_into_triangle(u, v);
@@ -22,7 +20,7 @@ Vec3 point_of(const Triangle& t, uint64_t hash) {
 
 }  // namespace
 
-PowerBalance measure_balance(const State& state, const StageTools& tools) {
+std::optional<PowerBalance> measure_balance(const State& state, const StageTools& tools) {
   const Scene& scene = *state.forest.scene;
   const Forest& forest = state.forest;
   const int bands = state.bands;
@@ -69,7 +67,7 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
   // Leaves take their turns in order, so that the rays of each are a part of the sequence, spread
   // evenly over it and its hemisphere.
   const LowDiscrepancy sequence(mix(tools.oracle.seed, 0x706f776572u));
-  tools.team.for_each(tasks, [&](int64_t task, int) {
+  const auto trace = [&](int64_t task, int) {
     if (!tools.exchange.my_turn(task)) return;
     Sums& s = sums[task];
     for (int64_t k = 0; k < rays_of_a_task; ++k) {
@@ -111,7 +109,11 @@ PowerBalance measure_balance(const State& state, const StageTools& tools) {
         (lost ? s.out : s.back)[b] += power;
       }
     }
+  };
+  const bool going_on = tools.team.for_each(tasks, trace, [&](int64_t done) {
+    return tools.progress(static_cast<double>(done) / tasks);
   });
+  if (!tools.exchange.all_go_on(going_on)) return std::nullopt;
   for (const Sums& s : sums) balance.rays += s.rays;
   tools.exchange.share_turns(sums);
   int64_t rays = 0, back_rays = 0;

@@ -48,14 +48,21 @@ const Reconstruction& Solver::reconstruction() const {
   return *s.reconstruction;
 }
 
-void Solver::Solution::measure(const StageTools& tools, double accuracy, Stats& stats) {
-  const ErrorEstimate estimate = estimate_error(state, tools, accuracy);
-  stats.error_estimate = estimate.error;
-  stats.error_standard_error = estimate.standard_error;
-  balance = measure_balance(state, tools);
-  state.rays += estimate.rays + balance.rays;
+bool Solver::Solution::measure(const StageTools& tools, double accuracy, Stats& stats) {
+  const double all = expected_rays_of_estimate(accuracy) + rays_of_the_balance;
+  const double of_balance = rays_of_the_balance / all;
+  const std::optional<ErrorEstimate> estimate =
+      estimate_error(state, tools.of_part(0, 1 - of_balance), accuracy);
+  if (!estimate) return false;
+  std::optional<PowerBalance> measured = measure_balance(state, tools.of_part(1 - of_balance, 1));
+  if (!measured) return false;
+  stats.error_estimate = estimate->error;
+  stats.error_standard_error = estimate->standard_error;
+  balance = *std::move(measured);
+  state.rays += estimate->rays + balance.rays;
   finished = true;
   measuring_due = false;
+  return true;
 }
 
 void Solver::measure_if_due() const {

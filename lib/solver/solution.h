@@ -25,8 +25,8 @@ struct Solver::Solution : SolveProgress {
   Inspection inspection;
   State state;
 
-  // Error and balance by rays, into stats and balance.
-  void measure(const StageTools& tools, double accuracy, Stats& stats);
+  // Error and balance by rays, into stats and balance. False: stopped, and nothing has changed.
+  bool measure(const StageTools& tools, double accuracy, Stats& stats);
 
   // For queries, made when the solve is finished or stopped.
   std::vector<NodeId> leaves;  // in key order

@@ -51,7 +51,11 @@ Status Solver::Run::run() {
     while (solution_.rounds_done < rounds_wanted() && !out_of_sweeps())
       if (!round()) return Status::stopped;
     const Status status = finish();
-    if (!is_to_be_tightened()) return status;
+    if (status == Status::stopped) return status;
+    if (!is_to_be_tightened()) {
+      clock_.finish(solver_.stats_.iterations);
+      return status;
+    }
     if (!exchange_.all_go_on(clock_.report(1.0, solver_.stats_.iterations))) return Status::stopped;
     tighten();
     if (!solution_.linked && !link()) return Status::stopped;
@@ -70,7 +74,7 @@ Status Solver::Run::sweep_again() {
   if (!sweep(solution_.sweeping_round) && solution_.sweeping) return Status::stopped;
   // Rays would take longer than the sweeps.
   solution_.measuring_due = true;
-  clock_.report(1.0, solver_.stats_.iterations);
+  clock_.finish(solver_.stats_.iterations);
   return solution_.converged ? Status::ok : Status::not_converged;
 }
 
@@ -113,10 +117,10 @@ void Solver::Run::clear_state() {
 
 // Measures the solution and makes it ready for queries.
 Status Solver::Run::finish() {
-  clock_.begin("measure", 0.95, 1.0);
-  const StageTools stage = tools(first_rounds);
-  if (!solution_.finished) solution_.measure(stage, params_.accuracy, solver_.stats_);
-  clock_.report(1.0, solver_.stats_.iterations);
+  clock_.begin("measure", of_measuring(), [](double) { return 0.0; });
+  if (!solution_.finished &&
+      !solution_.measure(tools(first_rounds), params_.accuracy, solver_.stats_))
+    return Status::stopped;
   const bool missed = steered_by_accuracy() &&
                       error_but(3) > std::max(surely_missed * params_.accuracy, least_measurable);
   return solution_.converged && !missed ? Status::ok : Status::not_converged;

@@ -47,7 +47,9 @@ class Solver::Run {
   bool link_by_clusters();
   bool link_by_rows();
   bool round();
-  double share_of_rounds(int done) const;
+  // Seconds that are still to come, as far as anybody knows (solve_stages.cpp).
+  double of_measuring() const;
+  double of_later_rounds(int done, double seconds_of_last) const;
   bool sweep(int round);
 
   Solver& solver_;
@@ -56,7 +58,8 @@ class Solver::Run {
   const Params& params_;
   const bool by_rows_;
   Exchange& exchange_;
-  std::vector<double> work_;  // of each own surface in the last round
+  std::vector<double> work_;                             // of each own surface in the last round
+  double seconds_of_round_ = 0, seconds_of_sweeps_ = 0;  // of the last ones
   ProgressClock clock_;
 };
 

@@ -17,6 +17,11 @@
 namespace hrad {
 namespace {
 
+// To guess the time left: the rounds after linking and the sweeps after rows, in times of these;
+// how much longer each round takes than the one before; and what nobody knows.
+constexpr double rounds_of_linking = 1.5, sweeps_of_rows = 0.05, growth_of_rounds = 2.3;
+constexpr double unknown = -1;
+
 uint64_t hash_of_light_on(const State& state) {
   Hasher hash;
   for (const auto* light : {&state.radiosity, &state.irradiance})
@@ -24,10 +29,10 @@ uint64_t hash_of_light_on(const State& state) {
   return hash.value();
 }
 
-void measure_roots(State& state, const StageTools& tools) {
+bool measure_roots(State& state, const StageTools& tools) {
   std::vector<NodeId> roots;
   for (NodeId root = 0; root < state.forest.surface_count(); ++root) roots.push_back(root);
-  measure_exposure(state, tools, roots);
+  return measure_exposure(state, tools, roots);
 }
 
 }  // namespace
@@ -84,18 +89,20 @@ void Solver::Run::forget_journal() {
 }
 
 bool Solver::Run::link_by_pairs() {
-  clock_.begin("linking", 0.02, 0.25);
+  clock_.begin("linking", unknown,
+               [this](double seconds) { return rounds_of_linking * seconds + of_measuring(); });
   StageTools stage = tools(0);
-  measure_roots(state_, stage);
+  if (!measure_roots(state_, stage)) return false;
   reset_to_emission(state_);
   state_.links.resize(state_.forest.nodes.size());
   return link_pairs(state_, stage, expected_brightness(state_));
 }
 
 bool Solver::Run::link_by_clusters() {
-  clock_.begin("linking", 0.02, 0.1);
+  clock_.begin("linking", unknown,
+               [this](double seconds) { return rounds_of_linking * seconds + of_measuring(); });
   StageTools stage = tools(0);
-  measure_roots(state_, stage);
+  if (!measure_roots(state_, stage)) return false;
   if (state_.forest.clusters.empty()) add_clusters(state_.forest);
   state_.links.resize(state_.forest.nodes.size());
   reset_to_emission(state_);
@@ -104,9 +111,10 @@ bool Solver::Run::link_by_clusters() {
 
 bool Solver::Run::link_by_rows() {
   clear_state();
-  clock_.begin("linking", 0.02, 0.85);
+  clock_.begin("linking", unknown,
+               [this](double seconds) { return sweeps_of_rows * seconds + of_measuring(); });
   const StageTools stage = tools(first_rounds);
-  measure_roots(state_, stage);
+  if (!measure_roots(state_, stage)) return false;
   return link_rows(
       state_, stage,
       rows_of(params_, state_.forest, solution_.inspection.mean_distance, solution_.scale));
@@ -114,9 +122,9 @@ bool Solver::Run::link_by_rows() {
 
 bool Solver::Run::round() {
   const int number = solution_.rounds_done + 1;
-  const double from = 0.25 + 0.7 * share_of_rounds(number - 1);
-  const double whole = share_of_rounds(number) - share_of_rounds(number - 1);
-  clock_.begin("refine", from, from + 0.95 * whole);
+  clock_.begin("refine", growth_of_rounds * seconds_of_round_, [this, number](double seconds) {
+    return seconds_of_sweeps_ + of_later_rounds(number, seconds) + of_measuring();
+  });
   const auto start = std::chrono::steady_clock::now();
   // The last round tells best what surfaces cost; before the first one there are their links.
   if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
@@ -130,22 +138,33 @@ bool Solver::Run::round() {
   solver_.stats_.seconds_iterative +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!done) return false;
+  seconds_of_round_ = clock_.seconds_of_stage();
   forget_journal();
   ++solver_.stats_.rounds;
   solution_.rounds_done = number;
   return sweep(number);
 }
 
-// Every round takes about twice as long as the one before.
-double Solver::Run::share_of_rounds(int done) const {
-  return std::min(1.0, (std::ldexp(1.0, done) - 1) / (std::ldexp(1.0, rounds_wanted()) - 1));
+double Solver::Run::of_later_rounds(int done, double seconds_of_last) const {
+  double seconds = 0;
+  for (int round = done; round < rounds_wanted(); ++round)
+    seconds += seconds_of_last *= growth_of_rounds;
+  return seconds;
+}
+
+double Solver::Run::of_measuring() const {
+  const double rays = expected_rays_of_estimate(params_.accuracy) + rays_of_the_balance;
+  return rays * solution_.inspection.seconds_of_a_ray / solution_.team->size() /
+         exchange_.owner_count();
 }
 
 // Gathering and push-pull until the radiosity transported stands still; goes on where a stop
 // broke it off.
 bool Solver::Run::sweep(int round) {
   const auto start = std::chrono::steady_clock::now();
-  clock_.begin("sweep", clock_.fraction(), clock_.fraction() + 0.02);
+  clock_.begin("sweep", seconds_of_sweeps_, [this, round](double) {
+    return of_later_rounds(round, seconds_of_round_) + of_measuring();
+  });
   if (!solution_.sweeping) begin_sweeps(round);
   StageMemory memory(state_);
   memory.take(bytes_of_gather_space(state_), "the light of a sweep");
@@ -157,8 +176,10 @@ bool Solver::Run::sweep(int round) {
         solution_.convergence.reached(hrad::sweep(state_, *solution_.team, exchange_, space));
     ++solver_.stats_.iterations;
     solution_.sweeping = !solution_.converged && !out_of_sweeps();
-    going_on = exchange_.all_go_on(clock_.report(0.5, solver_.stats_.iterations));
+    const double share = solution_.convergence.share_of_way();
+    going_on = exchange_.all_go_on(clock_.report(share, solver_.stats_.iterations));
   }
+  seconds_of_sweeps_ = clock_.seconds_of_stage();
   exchange_.share_light(state_);
   solver_.stats_.seconds_iterative +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

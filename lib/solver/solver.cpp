@@ -34,6 +34,9 @@ int64_t links_of_others(const State& state, const Exchange& exchange) {
   return count;
 }
 
+// Which steps the stages make; another number for others, whose results mean something else.
+constexpr uint64_t steps_of_stages = 1;
+
 // What a ray engine takes for a patch while it is built.
 constexpr int64_t kEngineBytesOfPatch = 150;
 
@@ -48,6 +51,7 @@ uint64_t hash_of_light(const Scene& scene) {
 
 uint64_t hash_of_linking(const Params& params, uint64_t light, double scale) {
   Hasher hash;
+  hash.add(steps_of_stages);
   hash.add(light);
   hash.add(scale);
   for (const ParamRow& row : param_table())

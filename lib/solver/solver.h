@@ -26,6 +26,7 @@ struct Progress {
   const char* stage = "";
   int64_t iteration = 0;
   double fraction = 0, seconds = 0, seconds_left = -1;
+  double stage_share = 0;  // of the stage that is under way, as it counts itself
 };
 
 // One leaf, as queries and exports see it.

@@ -18,6 +18,9 @@ class Convergence {
   // d q/(1-q) to come: a small change alone proves nothing where reflectances are high.
   bool reached(const std::vector<double>& total);
 
+  // Of the sweeps that it takes, the share that has been done, if the light goes on as it did.
+  double share_of_way() const { return sweeps_ > 0 ? sweeps_ / (sweeps_ + to_come_) : 0; }
+
   // What it knows so far, to be kept in a file: the totals of the last iteration and by how much
   // they had changed; empty before the first and the second one.
   double tolerance() const { return tolerance_; }
@@ -29,6 +32,7 @@ class Convergence {
  private:
   double tolerance_;
   std::vector<double> last_, change_;
+  double sweeps_ = 0, to_come_ = 1;  // since this began, and as many as may follow
 };
 
 }  // namespace hrad

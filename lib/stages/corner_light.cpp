@@ -118,15 +118,13 @@ void CornerSampler::count_memory() {
 }
 
 bool CornerSampler::sample() {
-  state_.journal.next_pass();
   count_memory();
   const size_t count = wanted_.size();
-  state_.rays += open_cubes(
-      grid_, count,
-      [&](size_t k) {
-        return KeyedPoint{wanted_[k].surface, wanted_[k].key, point_of(wanted_[k])};
-      },
-      tools_);
+  const auto point = [&](size_t k) {
+    return KeyedPoint{wanted_[k].surface, wanted_[k].key, point_of(wanted_[k])};
+  };
+  if (!open_cubes(grid_, count, point, state_, tools_)) return false;
+  state_.journal.next_pass();
   const size_t before = value_.size();
   value_.resize(before + count);
   links_.resize(before + count);

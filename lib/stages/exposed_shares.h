@@ -7,7 +7,7 @@
 
 namespace hrad {
 
-// Collective: all give the same elements.
-void measure_exposure(State& state, const StageTools& tools, const std::vector<NodeId>& elements);
+// Collective: all give the same elements. False: stopped, and nothing has changed.
+bool measure_exposure(State& state, const StageTools& tools, const std::vector<NodeId>& elements);
 
 }  // namespace hrad

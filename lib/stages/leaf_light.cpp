@@ -97,8 +97,8 @@ bool LeafLight::name() {
     wanted.push_back(leaves[k]);
   }
   corners_.add_middles(wanted, number_of_centroid);
-  state_.rays += open_cubes(
-      grid_, leaves.size(), [&](size_t k) { return keyed_middle_of(forest_, leaves[k]); }, tools_);
+  const auto its_middle = [&](size_t k) { return keyed_middle_of(forest_, leaves[k]); };
+  if (!open_cubes(grid_, leaves.size(), its_middle, state_, tools_)) return false;
   corners_.expect(corners_.asked());
   if (!corners_.sample()) return false;
   add_up_means(leaves, centroids);

@@ -42,7 +42,6 @@ std::vector<OrientedPoint> LeafLight::points_over(NodeId leaf, double large) con
 }
 
 bool LeafLight::name_means(const DirectLight& light, double large) {
-  state_.journal.next_pass();
   const std::vector<NodeId> leaves = new_leaves();
   const size_t count = leaves.size();
   for (size_t first = 0; first < count; first += leaves_of_a_batch) {
@@ -63,8 +62,10 @@ bool LeafLight::name_means(const DirectLight& light, double large) {
       for (size_t p = 0; p < points[k].size(); ++p)
         all.push_back({middle.surface, mix(middle.key, p), points[k][p]});
     }
-    state_.rays += open_cubes(
-        grid_, all.size(), [&](size_t k) { return all[k]; }, tools_);
+    if (!open_cubes(
+            grid_, all.size(), [&](size_t k) { return all[k]; }, state_, tools_))
+      return false;
+    state_.journal.next_pass();
     const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
     std::vector<std::vector<Link>> runs(some);
     std::vector<int64_t> rays(some, 0);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "links/light_grid.h"
 #include "stages/state.h"
@@ -16,9 +17,11 @@ struct KeyedPoint {
 };
 
 // Collective; own(k), on any thread: so many points on this process's surfaces. Whoever owns them,
-// the cubes are opened by the same points in the same order. Returns the number of this process's
-// rays.
-int64_t open_cubes(LightGrid& grid, size_t count, const std::function<KeyedPoint(size_t)>& own,
-                   const StageTools& tools);
+// the cubes are opened by the same points in the same order. False: stopped.
+bool open_cubes(LightGrid& grid, size_t count, const std::function<KeyedPoint(size_t)>& own,
+                State& state, const StageTools& tools);
+// The same by points that all processes give.
+bool open_cubes(LightGrid& grid, const std::vector<OrientedPoint>& points, State& state,
+                const StageTools& tools);
 
 }  // namespace hrad

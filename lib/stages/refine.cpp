@@ -23,6 +23,8 @@ namespace {
 constexpr int64_t most_links_of_a_task = 200;
 // Links of a partly sealed element, in links of others.
 constexpr int64_t work_of_partly_sealed = 8;
+// Of what a task stands for that hands on: its children take it, and hand on in their turn.
+constexpr double left_by_large_tasks = 0.8;
 
 struct Task {
   NodeId root;
@@ -75,6 +77,10 @@ class RefiningRound {
   bool start(Span<const NodeId> met);
   bool pass();
   std::vector<size_t> by_work();
+  static bool hands_on(const Task& task) { return task.work > most_links_of_a_task; }
+  static double work_of(const Task& task);
+  std::vector<double> work_in(const std::vector<size_t>& order) const;
+  double share_of_pass() const;
   void store(std::vector<SubtreeResult> results);
   void number_anew();
   void finish();
@@ -90,6 +96,7 @@ class RefiningRound {
   std::unique_ptr<EndPointsTable> points_;
   ClusterRound clusters_;
   std::vector<Task> tasks_;  // own ones of the next pass
+  double share_ = 0;         // of the round that is done, for who waits for it
   std::vector<Pass> passes_;
   std::vector<LinkTable::NewRun> new_links_;
 };
@@ -140,6 +147,30 @@ std::vector<size_t> RefiningRound::by_work() {
   return order;
 }
 
+// What a task is of its pass, and what it leaves to later ones: a guess.
+double RefiningRound::work_of(const Task& task) {
+  const double work = static_cast<double>(1 + task.work);
+  return hands_on(task) ? (1 - left_by_large_tasks) * work : work;
+}
+
+// Of the work of all tasks the share of those before each in the order, and of all.
+std::vector<double> RefiningRound::work_in(const std::vector<size_t>& order) const {
+  std::vector<double> until(1, 0.0);
+  for (size_t k : order) until.push_back(until.back() + work_of(tasks_[k]));
+  for (double& work : until) work /= until.back();
+  return until;
+}
+
+// Of the round.
+double RefiningRound::share_of_pass() const {
+  double here = 0, all = 0;
+  for (const Task& task : tasks_) {
+    here += work_of(task);
+    all += static_cast<double>(1 + task.work);
+  }
+  return (1 - share_) * here / all;
+}
+
 // False: stopped.
 bool RefiningRound::pass() {
   state_.journal.next_pass();
@@ -150,7 +181,8 @@ bool RefiningRound::pass() {
     refiner = std::make_unique<SubtreeRefiner>(state_, tools_, brightness_, points_.get());
   std::vector<double> seconds(tasks_.size(), 0.0);
   std::vector<uint8_t> is_new(tasks_.size(), 0);
-  const bool first = passes_.empty();
+  const std::vector<double> work_until = work_in(order);
+  const double covered = share_of_pass();
   const auto name_of = [&](size_t k) { return name_of_element(state_.forest, tasks_[k].root); };
   const bool going_on = state_.journal.for_each(
       tools_.team, static_cast<int64_t>(order.size()),
@@ -162,22 +194,20 @@ bool RefiningRound::pass() {
         });
         if (is_new[k]) {
           const double start = thread_seconds();
-          results[k] = refiners[worker]->refine(task.root, task.arriving, task.met,
-                                                task.work > most_links_of_a_task);
+          results[k] = refiners[worker]->refine(task.root, task.arriving, task.met, hands_on(task));
           seconds[k] = thread_seconds() - start;
         }
         memory_.take(bytes_of(results[k]), "refined links");
       },
       [&](int64_t done) {
-        // Later passes are small beside the first.
-        return tools_.progress(first ? static_cast<double>(done) / static_cast<double>(order.size())
-                                     : 1);
+        return tools_.progress(share_ + covered * work_until[static_cast<size_t>(done)]);
       },
       [&](LinkStep& step, int64_t turn) {
         const size_t k = order[static_cast<size_t>(turn)];
         if (is_new[k]) add_result(step, name_of(k), results[k]);
       });
   if (!going_on) return false;
+  share_ += covered;
   for (size_t k = 0; k < tasks_.size(); ++k)
     work_[static_cast<size_t>(state_.forest.nodes[tasks_[k].root].surface)] += seconds[k];
   store(std::move(results));

@@ -22,7 +22,7 @@ NodeId RowMesh::add_children(const std::vector<NodeId>& parents) {
   return static_cast<NodeId>(first);
 }
 
-void RowMesh::measure_exposure(NodeId from) {
+bool RowMesh::measure_exposure(NodeId from) {
   const std::vector<NodeId> partly =
       gathered<NodeId>(tools_.team, forest_.nodes.size() - static_cast<size_t>(from),
                        [&](size_t k, std::vector<NodeId>& some) {
@@ -30,11 +30,11 @@ void RowMesh::measure_exposure(NodeId from) {
                          const float exposed = forest_.nodes[id].exposed;
                          if (exposed > 0 && exposed < 1) some.push_back(id);
                        });
-  hrad::measure_exposure(state_, tools_, partly);
+  return hrad::measure_exposure(state_, tools_, partly);
 }
 
 // Level by level.
-void RowMesh::make_cells() {
+bool RowMesh::make_cells() {
   const auto is_too_large = [&](const Node& node) {
     return forest_.area(node) > settings_.cell_area && node.level < max_level;
   };
@@ -51,10 +51,11 @@ void RowMesh::make_cells() {
     const std::vector<NodeId> cells = those(false);
     state_.cells.insert(state_.cells.end(), cells.begin(), cells.end());
     add_children(those(true));
-    measure_exposure(static_cast<NodeId>(end));
+    if (!measure_exposure(static_cast<NodeId>(end))) return false;
     memory_.settle();
     from = end;
   }
+  return true;
 }
 
 std::vector<NodeId> RowMesh::exposed_of(const std::vector<NodeId>& elements) const {
@@ -111,7 +112,7 @@ bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& ne
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
   divide_leaves(leaves);
   if (!sample_corners()) return false;
-  measure_exposure(end);
+  if (!measure_exposure(end)) return false;
   new_cells.clear();
   std::vector<LinkTable::NewRun> dropped;
   for (NodeId cell : divided) {

@@ -47,9 +47,9 @@ RowMesh::RowMesh(State& state, StageTools tools, const RowSettings& settings,
       memory_(memory) {}
 
 bool RowMesh::build() {
-  make_cells();
+  if (!make_cells()) return false;
   std::vector<NodeId> open = exposed_of(state_.cells);
-  open_grid(open);
+  if (!open_grid(open)) return false;
   if (settings_.means_only) return name_leaves();
   if (!keep_small_patches(open)) return false;
   corners_.want(points_of_own(open, PointsOf::corners));
@@ -57,7 +57,7 @@ bool RowMesh::build() {
 }
 
 // By points from all over the scene, before the first that are sampled, whose places are special.
-void RowMesh::open_grid(const std::vector<NodeId>& cells) {
+bool RowMesh::open_grid(const std::vector<NodeId>& cells) {
   std::vector<OrientedPoint> points(3 * cells.size());
   for_each_thing(tools_.team, cells.size(), [&](size_t k) {
     const OrientedPoint middle = middle_of(forest_, cells[k]);
@@ -66,8 +66,9 @@ void RowMesh::open_grid(const std::vector<NodeId>& cells) {
     for (const Vec3& corner : {t.a, t.b, t.c})
       *next++ = {(corner + middle.place) * 0.5, middle.normal};
   });
-  state_.rays += grid_.open(points, tools_.team, tools_.exchange.comm());
+  if (!open_cubes(grid_, points, state_, tools_)) return false;
   guess_share(cells, points);
+  return true;
 }
 
 // points: three of each cell.
@@ -125,6 +126,7 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
     else
       rest.push_back(open[k]);
   }
+  small_patches_ = static_cast<int64_t>(open.size() - rest.size());
   open.swap(rest);
   return true;
 }
@@ -146,8 +148,8 @@ bool RowMesh::refine(std::vector<NodeId> open) {
           if (is_mine(open[k]) && may_divide(open[k])) some.push_back(open[k]);
         });
     corners_.want(points_of_own(asked, PointsOf::middles_of_edges));
-    // Later levels together ask for about as many, and each leaf for its middle.
-    const int64_t leaves = static_cast<int64_t>(forest_.nodes.size()) * 3 / 4;
+    // Later levels together ask for about as many, and each leaf but small patches for its middle.
+    const int64_t leaves = (static_cast<int64_t>(forest_.nodes.size()) - small_patches_) * 3 / 4;
     corners_.expect(corners_.asked() + static_cast<int64_t>(asked.size()) + leaves);
     if (!sample_corners()) return false;
     const std::vector<uint8_t> fate = fate_of(open, asked);
@@ -159,7 +161,7 @@ bool RowMesh::refine(std::vector<NodeId> open) {
       fate_of_parent.push_back(fate[k]);
     }
     const NodeId first = add_children(parents);
-    measure_exposure(first);
+    if (!measure_exposure(first)) return false;
     open =
         gathered<NodeId>(tools_.team, parents.size(), [&](size_t k, std::vector<NodeId>& children) {
           if (fate_of_parent[k] != goes_on) return;

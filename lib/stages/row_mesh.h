@@ -36,12 +36,12 @@ class RowMesh {
  private:
   bool is_mine(NodeId id) const;
   NodeId add_children(const std::vector<NodeId>& parents);
-  void measure_exposure(NodeId from);
+  bool measure_exposure(NodeId from);
   std::vector<NodeId> exposed_of(const std::vector<NodeId>& elements) const;
-  void open_grid(const std::vector<NodeId>& cells);
+  bool open_grid(const std::vector<NodeId>& cells);
   void guess_share(const std::vector<NodeId>& cells, const std::vector<OrientedPoint>& points);
   bool sample_corners();
-  void make_cells();
+  bool make_cells();
   bool keep_small_patches(std::vector<NodeId>& open);
   bool refine(std::vector<NodeId> open);
   std::vector<uint8_t> fate_of(const std::vector<NodeId>& open,
@@ -59,6 +59,7 @@ class RowMesh {
   State& state_;
   Forest& forest_;
   double share_ = 0.3;
+  int64_t small_patches_ = 0;  // left as they are
   const StageTools tools_;
   const RowSettings settings_;
   const DirectLight& light_;

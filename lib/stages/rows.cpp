@@ -28,15 +28,6 @@ constexpr double pilot_work = 0.4;
 // rays is meant, and how many times that there may be.
 constexpr double ordinary_deviation = 0.15, most_more_rays = 64;
 
-// The part of the whole from `from` to `to`.
-StageTools part_of(const StageTools& tools, double from, double to) {
-  StageTools part = tools;
-  part.progress = [&tools, from, to](double fraction) {
-    return tools.progress(from + (to - from) * fraction);
-  };
-  return part;
-}
-
 // Where a few bright spots make the root mean square, everything else would seem even: the unit is
 // no larger than twice the mean.
 void stay_near_the_mean(const State& state, Brightness& light) {
@@ -154,7 +145,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   std::vector<int> rays;
   for (int round = 0; !cells.empty(); ++round) {
     const double step = (piloted - meshed) / pilot_rounds, from = meshed + round * step;
-    if (!trace_rows(state, part_of(tools, from, from + step), pilot, grid, cells,
+    if (!trace_rows(state, tools.of_part(from, from + step), pilot, grid, cells,
                     rays_by_area(state, tools, pilot, cells), memory))
       return false;
     const Brightness seen = light_of_pilot_rows(state, tools);
@@ -163,7 +154,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
     if (!mesh.divide_cells(seen, cells)) return false;
     pull_exposure(state.forest);
   }
-  if (!trace_rows(state, part_of(tools, piloted, 1), settings, grid, state.cells, rays, memory))
+  if (!trace_rows(state, tools.of_part(piloted, 1), settings, grid, state.cells, rays, memory))
     return false;
   mesh.keep_what_is_named();
   reset_to_emission(state);

@@ -89,6 +89,13 @@ struct StageTools {
   OracleSettings oracle;
   // Told the share of the stage that is done; false asks to stop.
   std::function<bool(double fraction)> progress;
+
+  // For a part of the stage, from one share of it to another. These tools must outlive that.
+  StageTools of_part(double from, double to) const {
+    StageTools part = *this;
+    part.progress = [this, from, to](double share) { return progress(from + (to - from) * share); };
+    return part;
+  }
 };
 
 // How strongly each node shines, as one number: the largest band, each in units of the scene's own

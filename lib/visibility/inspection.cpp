@@ -2,6 +2,7 @@
 #include "visibility/inspection.h"
 
 #include <algorithm>
+#include <chrono>
 #include <vector>
 
 #include "base/draw.h"
@@ -29,15 +30,18 @@ class Rays {
              bool also_in_solids) {
     const Draw draw(areas);
     if (!(draw.total() > 0)) return;
+    const auto start = std::chrono::steady_clock::now();
     for (int k = 0; k < rays_of_a_half; ++k) {
       const uint64_t h = mix(static_cast<uint64_t>(k), 0x696e7370u);
       shoot_from(patches[draw.pick((k + unit_interval(h)) / rays_of_a_half)], also_in_solids, h);
     }
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   double mean_distance() const {
     return distances_ ? distance_ / static_cast<double>(distances_) : engine_.radius();
   }
+  double seconds_of_a_ray() const { return rays_ ? seconds_ / rays_ : 0; }
   double back_share() const { return rays_ ? static_cast<double>(backs_) / rays_ : 0; }
 
  private:
@@ -64,7 +68,7 @@ class Rays {
   const VisibilityEngine& engine_;
   const Exposure& exposure_;
   int64_t rays_ = 0, backs_ = 0, distances_ = 0;
-  double distance_ = 0;
+  double distance_ = 0, seconds_ = 0;
 };
 
 }  // namespace
@@ -90,6 +94,7 @@ Inspection inspect(const Scene& scene, const VisibilityEngine& engine, const Exp
   Rays rays(scene, engine, exposure);
   rays.shoot(emitters, area_of_emitters, true);
   rays.shoot(all, area_of_all, false);
+  result.seconds_of_a_ray = rays.seconds_of_a_ray();
   result.back_share = rays.back_share();
   result.mean_distance = rays.mean_distance();
   return result;

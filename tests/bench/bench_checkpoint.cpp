@@ -141,7 +141,7 @@ void measure(const std::string& scene, const CheckpointOptions& o, Costs& costs)
   load(solver, scene, o.settings);
   solver.set_int("resumable", 1);
   solver.set_progress([&](const hrad::Progress& progress) {
-    if (progress.stage != std::string("linking") || progress.fraction < 0.5) return true;
+    if (progress.stage != std::string("linking") || progress.stage_share < 0.5) return true;
     try {
       costs.in_linking = cost_of_writing(solver, folder.file("linking.hrad"), o.writes);
     } catch (const hrad::Error& error) {

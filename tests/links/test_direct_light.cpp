@@ -14,6 +14,11 @@ namespace {
 using namespace hrad;
 using namespace hrad_test;
 
+void open(LightGrid& grid, const std::vector<OrientedPoint>& points, Workbench& bench) {
+  int64_t rays = 0;
+  CHECK(grid.open(points, bench.team, bench.comm, opened_by(bench.team), rays));
+}
+
 // A scene with its emitters as linking by rows sees them.
 struct Lit {
   explicit Lit(Scene s, double noise = 1e-6, double least_bright = 1e-9)
@@ -24,7 +29,7 @@ struct Lit {
         light(bench.state.forest, *bench.engine, emitters, grid, noise) {}
 
   double at(Vec3 x, Vec3 normal, uint64_t key = 1) {
-    grid.open({{x, normal}}, bench.team, bench.comm);
+    open(grid, {{x, normal}}, bench);
     std::vector<Link> links;
     rays = light.sample({x, normal}, key, links);
     double sum = 0;
@@ -174,7 +179,7 @@ void pilot_rays_tell_what_is_hidden() {
   add_quad(scene, {-5, -5, 0.5}, {5, 0, 0}, {0, 10, 0});
   Lit lit(scene);
   const OrientedPoint under{{-2.5, 0.3, 0}, up}, beside{{2.5, 0.3, 0}, up};
-  lit.grid.open({under, beside}, lit.bench.team, lit.bench.comm);
+  open(lit.grid, {under, beside}, lit.bench);
   CHECK_EQUAL(lit.grid.at(under).size(), size_t{1});
   CHECK(lit.grid.at(under).front().hidden);
   CHECK(!lit.grid.at(beside).front().hidden);
@@ -191,7 +196,7 @@ void what_is_hidden_and_weak_has_no_links() {
   const double light =
       lamp.brightness * lamp.brightness * Emitters::rough_factor(lamp, under.place, up);
   Lit lit(scene, 1e-6, light / 4);
-  lit.grid.open({under, beside}, lit.bench.team, lit.bench.comm);
+  open(lit.grid, {under, beside}, lit.bench);
   CHECK(lit.emitters.bright(lamp, under.place, up));
   CHECK(lit.grid.at(under).empty());
   CHECK(!lit.grid.by_links(0, under, lit.grid.at(under)));
@@ -199,7 +204,7 @@ void what_is_hidden_and_weak_has_no_links() {
   CHECK(lit.grid.by_links(0, beside, lit.grid.at(beside)));
   // Strong as it is, it keeps its links, and its few rays, where it is hidden.
   Lit strong(scene, 1e-6, light / 100);
-  strong.grid.open({under, beside}, strong.bench.team, strong.bench.comm);
+  open(strong.grid, {under, beside}, strong.bench);
   CHECK(strong.grid.by_links(0, under, strong.grid.at(under)));
 }
 
@@ -261,7 +266,7 @@ void a_cube_sees_every_lamp_once() {
   int groups = 0, singles = 0;
   for (double x : {1.0, 9.0, 20.0, 45.0}) {
     const OrientedPoint point{{x, -0.5, 0}, up};
-    lit.grid.open({point}, lit.bench.team, lit.bench.comm);
+    open(lit.grid, {point}, lit.bench);
     std::vector<int> met(lit.emitters.all().size(), 0);
     for (const LightGrid::Candidate& candidate : lit.grid.at(point)) {
       const Emitter& e = lit.emitters.all()[candidate.emitter];

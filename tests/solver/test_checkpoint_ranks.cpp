@@ -220,7 +220,7 @@ void finished_tasks_of_all_ranks() {
       solver.set_int("resumable", 1);
       if (solver.comm().rank() == 0)
         solver.set_progress([](const hrad::Progress& progress) {
-          return progress.stage != std::string("linking") || progress.fraction < 0.05;
+          return progress.stage != std::string("linking") || progress.stage_share < 0.05;
         });
       solver.make_scene(c.scene);
       CHECK(solver.solve() == hrad::Status::stopped);

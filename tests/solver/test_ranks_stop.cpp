@@ -12,11 +12,11 @@ using namespace hrad_test;
 
 constexpr int ranks = 3;
 
-// Where to stop: in the stage, at this sweep or part of the whole, whichever the solve is past.
+// Where to stop: in the stage, when so many sweeps are done, at the next report after so many.
 struct Point {
   const char* stage;
   int64_t iteration;
-  double fraction;
+  int reports;
 };
 
 // Stops at one point after the other.
@@ -24,6 +24,7 @@ struct Stops {
   std::vector<Point> points;
   hrad_solver* other = nullptr;  // is asked to stop instead of rank 0
   size_t next = 0, met = 0;
+  int reports = 0;  // of the stage since the last stop
   bool asks_other = false;
 
   static int32_t asked(const hrad_progress* progress, void* user) {
@@ -31,8 +32,9 @@ struct Stops {
     if (stops->next >= stops->points.size()) return 0;
     const Point& point = stops->points[stops->next];
     if (std::string(point.stage) != progress->stage || progress->iteration < point.iteration ||
-        progress->fraction < point.fraction)
+        stops->reports++ < point.reports)
       return 0;
+    stops->reports = 0;
     ++stops->next;
     ++stops->met;
     stops->asks_other = stops->next % 2 == 0;
@@ -54,14 +56,14 @@ const std::vector<Case>& cases() {
        "pairs",
        0.4,
        {{"linking", 0, 0},
-        {"linking", 0, 0.1},
+        {"linking", 0, 3},
         {"sweep", 1, 0},
         {"sweep", 2, 0},
         {"sweep", 4, 0},
         {"refine", 0, 0},
-        {"refine", 0, 0.3},
+        {"refine", 0, 20},
         {"sweep", 9, 0},
-        {"refine", 0, 0.4},
+        {"refine", 0, 6},
         {"sweep", 14, 0},
         {"sweep", 15, 0}}},
       {"furnished-room",
@@ -72,10 +74,10 @@ const std::vector<Case>& cases() {
        "rows",
        0.1,
        {{"linking", 0, 0},
-        {"linking", 0, 0.1},
-        {"linking", 0, 0.3},
-        {"linking", 0, 0.5},
-        {"linking", 0, 0.7},
+        {"linking", 0, 3},
+        {"linking", 0, 20},
+        {"linking", 0, 40},
+        {"linking", 0, 60},
         {"sweep", 1, 0},
         {"sweep", 2, 0},
         {"sweep", 5, 0},
