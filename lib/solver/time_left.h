@@ -26,7 +26,7 @@ class TimeLeft {
 
   double begin_ = 0, expected_ = -1, share_ = 0;
   std::function<double(double)> later_ = [](double) { return 0.0; };
-  std::vector<Mark> marks_;  // of the stage, each later by a tenth than the one before
+  std::vector<Mark> marks_{{0, 0}};  // of the stage, each later by a tenth than the one before
 };
 
 }  // namespace hrad
