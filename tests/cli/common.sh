@@ -72,6 +72,17 @@ PYTHON
   ) || complain "$ran: not so: $1 $why"
 }
 
+# falls_asleep PROCESS: it is sent SIGSTOP, and none of its threads runs any more.
+falls_asleep() {
+  kill -s STOP "$1"
+  for _ in $(seq 600); do
+    [ -e "/proc/$1" ] || break
+    cat "/proc/$1"/task/*/status 2>/dev/null | grep '^State:' | grep -qv 'T (stopped)' || return 0
+    sleep 0.02
+  done
+  complain "$ran: SIGSTOP doesn't stop it"
+}
+
 finish() {
   [ "$failures" = 0 ] || { echo "$failures failed" >&2; exit 1; }
 }

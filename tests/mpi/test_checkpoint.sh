@@ -58,6 +58,20 @@ grep -q '^hrad: wrote a.hrad' err || complain "SIGUSR2: no checkpoint was writte
 works check a.hrad.prev
 rm -f a.hrad*
 
+# A second signal to one of them ends all at once, and the checkpoint stays as it was. It sleeps while
+# both are sent: with the first alone, all would write a checkpoint together and end with 75.
+begin
+signal_all USR2
+until_said '^hrad: wrote a.hrad'
+falls_asleep "$(cat process.1)"
+cp a.hrad before
+for signal in INT TERM CONT; do kill -s $signal "$(cat process.1)"; done
+ends
+[ "$code" = 130 ] || [ "$code" = 143 ] || complain "$ran: two signals: exit code $code: $(cat err)"
+[ -s out ] && complain "$ran: two signals: output on stdout"
+cmp -s a.hrad before || complain "$ran: two signals: the checkpoint was written anew"
+rm -f a.hrad* before
+
 # A signal to mpirun stops all with a checkpoint, and other numbers of processes go on.
 for signal in USR1 TERM; do
   begin
