@@ -178,10 +178,18 @@ class Pictures(unittest.TestCase):
         self.assertNotIn((0, 0, 0), picture.pixels())
 
     def test_edges_are_smooth(self):
-        picture, _ = self.render(*CORNELL, *INTO_CORNELL, "--size", "120x90")
-        colours = {picture.at(column, row) for row in (20, 45, 70) for column in range(25)}
-        between = [c for c in colours if c != BACKGROUND and c[0] > 52 and c[2] > 20]
-        self.assertTrue(between)
+        # A lamp of one colour before nothing: what is neither is a pixel that the edge crosses.
+        self.write("m.mtl", "newmtl lamp\nKd 0 0 0\nKe 1 1 1\n")
+        scene = self.write("lamp.obj", "mtllib m.mtl\nusemtl lamp\n"
+                           "v -1 -1 0\nv 1 -0.7 0\nv 0.2 1 0\nf 1 2 3\n")
+        picture, _ = self.render(scene, "--quiet", "--size", "60x60", "--eye", "0,0,3", "--look",
+                                 "0,0,0", "--up", "0,1,0", "--fov", "50")
+        lamp, colours = picture.at(30, 30), set(picture.pixels())
+        between = colours - {lamp, BACKGROUND}
+        for colour in between:
+            self.assertTrue(all(b <= c <= l for b, c, l in zip(BACKGROUND, colour, lamp)), colour)
+        # Sixteen samples a pixel have fifteen steps between none and all.
+        self.assertGreater(len(between), 9)
 
     def test_the_left_wall_of_cornell_is_red_the_right_one_green(self):
         picture, said = self.render(*CORNELL, "--size", "160x120")
