@@ -19,10 +19,10 @@ run() {
   code=$?
 }
 
-# make_failing_io: the library failing_io.so here, to be loaded before others; skips the test where it
-# can't be.
-make_failing_io() {
-  cc -shared -fPIC -O1 -o failing_io.so "$HRAD_SOURCE_DIR/tests/cli/failing_io.c" -ldl 2>cc.err || {
+# make_preload SOURCE.c: a library of that name here, SOURCE.so, to be loaded before others; skips the
+# test where it can't be.
+make_preload() {
+  cc -shared -fPIC -O1 -o "$(basename "$1" .c).so" "$1" -ldl 2>cc.err || {
     echo "skipped: no C compiler that makes shared libraries: $(head -1 cc.err)"
     exit 77
   }
@@ -32,6 +32,7 @@ make_failing_io() {
     exit 77
   fi
 }
+make_failing_io() { make_preload "$HRAD_SOURCE_DIR/tests/cli/failing_io.c"; }
 
 # refuses CODE TEXT ARGUMENTS...: ends with the code, says the text on stderr and nothing on stdout.
 refuses() {
