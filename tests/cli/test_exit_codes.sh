@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What ends with which code when the command line itself is right: scene 3, input and output 5, not
-# converged 7 with its results, MPI 8.
+# What ends with which code when the command line itself is right: scene 3, input and output 5, memory 6,
+# not converged 7 with its results, MPI 8.
 . "$(dirname "$0")/common.sh"
 
 # Scenes.
@@ -31,6 +31,10 @@ printf '1 1 1 0 0 1,\n' >sensors.txt
 refuses 5 "sensors.txt:1" query cornell --sensors sensors.txt
 printf '\n1 1 1 0 0 0\n' >sensors.txt
 refuses 5 "sensors.txt:2" query cornell --sensors sensors.txt
+
+# Memory: the limit is named, and nothing is written.
+refuses 6 "max_memory is 20000000 bytes" solve classroom --set max_memory=20000000 -o room.csv
+[ -e room.csv ] && complain "$ran: room.csv was written"
 
 # Not converged: the results are written.
 run solve cornell --accuracy 0.1 --set max_iterations=1 -o part.csv --json
