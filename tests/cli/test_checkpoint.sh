@@ -163,6 +163,15 @@ refuses 4 "r.hrad.prev is damaged" solve cornell --checkpoint r.hrad --restart a
 rm r.hrad.prev
 refuses 4 "r.hrad.prev is missing" solve cornell --checkpoint r.hrad --restart auto
 cp c.hrad r.hrad
+# What decides the result is that of the file.
+while read -r option told; do
+  refuses 2 "$told" solve cornell --checkpoint r.hrad --restart auto "$option"
+done <<'END'
+--set=seed=2 r.hrad: parameter 'seed' is 1 since the solve began and can't become 2
+--set=linking=pairs r.hrad: parameter 'linking' is auto since the solve began and can't become pairs
+--accuracy=0.4 r.hrad: parameter 'accuracy' is 0.3 since the solve began and can't become 0.4
+END
+cmp -s c.hrad r.hrad || complain "a refused file was changed"
 refuses 4 "another scene" solve furnace --checkpoint r.hrad --restart auto
 cmp -s c.hrad r.hrad || complain "a refused file was changed"
 
