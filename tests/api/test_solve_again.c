@@ -27,7 +27,7 @@ static void result_parameters_and_scene_change_the_hash(void** state) {
 
 struct calling {
   hrad_solver* solver;
-  int wrong;
+  int calls, wrong;
 };
 
 /* Everything that a callback must not call. */
@@ -38,6 +38,7 @@ static int32_t call_back(const hrad_progress* progress, void* user) {
   int64_t whole = -7;
   double real[BANDS] = {-7};
   (void)progress;
+  ++calling->calls;
   calling->wrong |= hrad_solve(solver) != HRAD_ERROR_STATE;
   calling->wrong |= strlen(hrad_error_message()) == 0;
   calling->wrong |= hrad_set_int(solver, "threads", 1) != HRAD_ERROR_STATE;
@@ -53,14 +54,36 @@ static int32_t call_back(const hrad_progress* progress, void* user) {
   return 0;
 }
 
+static void log_back(int32_t level, const char* message, void* user) {
+  struct calling* calling = user;
+  calling->wrong |= level > HRAD_LOG_DEBUG || strlen(message) == 0;
+  call_back(NULL, user);
+}
+
 static void callbacks_can_not_call_back(void** state) {
   hrad_solver* solver = prepared("cornell", 0.1, 1);
-  struct calling calling = {solver, 0};
+  struct calling calling = {solver, 0, 0};
   (void)state;
   assert_ok(hrad_set_progress(solver, call_back, &calling));
   assert_ok(hrad_solve(solver));
+  assert_true(calling.calls > 0);
   assert_false(calling.wrong);
   assert_true(hash_of(solver) == cornell_hash(1));
+  hrad_destroy(&solver);
+}
+
+static void the_log_function_can_not_call_back(void** state) {
+  hrad_solver* solver = new_solver();
+  struct calling calling = {solver, 0, 0};
+  const int32_t material = add_gray(solver, 0.5, 1, 0);
+  (void)state;
+  assert_ok(hrad_set_log(solver, log_back, &calling, HRAD_LOG_DEBUG));
+  add_room(solver, material);
+  assert_int_equal(calling.calls, 0);
+  add_room(solver, material); /* it is told that these patches repeat others */
+  assert_int_equal(calling.calls, 1);
+  assert_false(calling.wrong);
+  assert_int_equal(patch_count(solver), 24);
   hrad_destroy(&solver);
 }
 
@@ -261,6 +284,7 @@ int main(void) {
       cmocka_unit_test(threads_do_not_change_a_bit),
       cmocka_unit_test(result_parameters_and_scene_change_the_hash),
       cmocka_unit_test(callbacks_can_not_call_back),
+      cmocka_unit_test(the_log_function_can_not_call_back),
       cmocka_unit_test(solvers_work_side_by_side),
       cmocka_unit_test(emission_may_change),
       cmocka_unit_test(reflectance_may_change),
