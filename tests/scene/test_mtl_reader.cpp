@@ -1,4 +1,4 @@
-// MTL texts: Kd and Ke, what is clamped, ignored and refused.
+// MTL texts: Kd and Ke, line ends and encodings, what is clamped, ignored and refused.
 #include "base/error.h"
 #include "scene/mtl_reader.h"
 #include "support/check.h"
@@ -98,6 +98,40 @@ void refused() {
   check_error(std::string("newmtl a\n\0", 10), "a.mtl:2: a zero byte");
 }
 
+// Of ASCII.
+std::string utf16(const std::string& ascii, bool big_end, bool mark) {
+  std::string result;
+  if (mark) result += big_end ? "\xfe\xff" : "\xff\xfe";
+  for (char c : ascii) {
+    if (big_end) result += '\0';
+    result += c;
+    if (!big_end) result += '\0';
+  }
+  return result;
+}
+
+void lines_end_in_any_way() {
+  for (const char* text :
+       {"newmtl a\nKd .1\nnewmtl b\nKe 2", "newmtl a\r\nKd .1\r\nnewmtl b\r\nKe 2\r\n",
+        "newmtl a\rKd .1\rnewmtl b\rKe 2\r", "\xef\xbb\xbfnewmtl a\nKd .1\nnewmtl b\nKe 2\n",
+        "\xef\xbb\xbfnewmtl a\rKd .1\r\n\nnewmtl b\rKe \\\r\n2\r"}) {
+    const MtlLibrary l = read(text);
+    CHECK_EQUAL(l.materials.size(), size_t{2});
+    CHECK(l.materials[0].name == "a" && l.materials[1].name == "b");
+    CHECK((l.materials[0].reflectance == Color{.1, .1, .1}));
+    CHECK((l.materials[1].emission == Color{2, 2, 2}));
+    CHECK_EQUAL(l.unknown, int64_t{0});
+  }
+  // Counted as an editor does.
+  check_error("newmtl a\rKd .1\r\nKe x\n", "a.mtl:3: 'x' is not a number");
+}
+
+void other_encodings_are_named() {
+  for (bool big_end : {false, true})
+    for (bool mark : {false, true})
+      check_error(utf16("newmtl a\nKd .1\n", big_end, mark), "a.mtl:1: this is UTF-16");
+}
+
 void what_this_reader_has_no_use_for_is_counted() {
   const MtlLibrary l = read(
       "newmtl a\nKd .1\nNi 1\nillum 2\nd 1\nTr 0\nKs 0 0 0\nTf 1 1 1\nkd 1\n"
@@ -133,6 +167,8 @@ int main() {
       HRAD_TEST(marks_are_read),
       HRAD_TEST(the_first_definition_counts),
       HRAD_TEST(refused),
+      HRAD_TEST(lines_end_in_any_way),
+      HRAD_TEST(other_encodings_are_named),
       HRAD_TEST(what_this_reader_has_no_use_for_is_counted),
       HRAD_TEST(too_small_numbers_are_zero),
       HRAD_TEST(minus_zero_is_zero),
