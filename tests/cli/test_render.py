@@ -13,7 +13,7 @@ import zlib
 
 HRAD = os.environ["HRAD"]
 BACKGROUND = (52, 56, 64)
-PAPER = (24, 24, 24)  # behind a legend
+PAPER, INK = (24, 24, 24), (225, 225, 225)  # of a legend
 
 
 def hrad(*arguments, status=0, folder=None):
@@ -247,10 +247,19 @@ class Pictures(unittest.TestCase):
         left = 320 - 76
         legend = picture.pixels(range(left, 320))
         self.assertGreater(legend.count(PAPER), len(legend) // 2)
-        self.assertIn((225, 225, 225), legend)
+        # Above the bar its caption: the second line is the unit, in letters five pixels wide.
+        unit = ["".join("#" if picture.at(left + 8 + column, 19 + row) == INK else "."
+                        for column in range(23)) for row in range(7)]
+        self.assertEqual(unit, ["#...#..............##..",
+                                "#...#.....#.......#..#.",
+                                "#...#....#..##.#....#..",
+                                "#.#.#...#...#.#.#..#...",
+                                "#.#.#..#....#.#.#.####.",
+                                "#.#.#.#.....#...#......",
+                                ".#.#........#...#......"])
         # The bar runs from the map's last colour above to its first below.
         bar = [picture.at(left + 12, row) for row in range(240)]
-        bar = [colour for colour in bar if colour not in (PAPER, (225, 225, 225))]
+        bar = [colour for colour in bar if colour not in (PAPER, INK)]
         self.assertEqual((bar[0], bar[-1]), ((253, 231, 37), (68, 1, 84)))
         # The lamp is above the range.
         self.assertIn((253, 231, 37), picture.pixels(range(left)))
