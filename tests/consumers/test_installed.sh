@@ -10,6 +10,15 @@ cd "$folder"
 
 cmake --install "$HRAD_BINARY_DIR" --prefix "$folder/before" >installed
 mv before after
+
+# Staged by DESTDIR, for who makes packages: the same files below the build's own prefix, none beside it.
+prefix=$(sed -n 's/^CMAKE_INSTALL_PREFIX:PATH=//p' "$HRAD_BINARY_DIR/CMakeCache.txt")
+DESTDIR=$folder/stage cmake --install "$HRAD_BINARY_DIR" >installed
+diff -r "stage$prefix" after || { echo "DESTDIR gives other files (<) than --prefix (>)" >&2 && exit 1; }
+[[ $(find stage ! -type d | wc -l) == $(find after ! -type d | wc -l) ]] || {
+  echo "DESTDIR leaves files outside the prefix" >&2 && exit 1
+}
+
 config=$(find after -name hrad.pc -printf '%h')
 export PKG_CONFIG_PATH=$folder/$config
 case $(pkg-config --libs --cflags --static hrad) in
@@ -72,10 +81,12 @@ for language in "${languages[@]}"; do
 done
 
 # Where libraries have folders of their own, and where theirs lies outside the prefix.
+configure_only() {  # OPTION...
+  cmake -S "$HRAD_SOURCE_DIR" -B configured-only -DHRAD_TESTS=OFF -DHRAD_MPI=OFF -DHRAD_FORTRAN=OFF \
+    -DCMAKE_INSTALL_PREFIX="$folder/prefix" "$@" >configured || { cat configured && exit 1; }
+}
 for libdir in lib/some-machine-gnu "$folder/elsewhere/lib"; do
-  cmake -S "$HRAD_SOURCE_DIR" -B configured-only -DHRAD_TESTS=OFF -DHRAD_EMBREE=OFF \
-    -DCMAKE_INSTALL_PREFIX="$folder/prefix" -DCMAKE_INSTALL_LIBDIR="$libdir" >configured ||
-    { cat configured && exit 1; }
+  configure_only -DHRAD_EMBREE=OFF -DCMAKE_INSTALL_LIBDIR="$libdir"
   case $libdir in
     /*) wanted=$libdir ;;
     *) wanted=$folder/prefix/$libdir ;;
@@ -91,4 +102,24 @@ for libdir in lib/some-machine-gnu "$folder/elsewhere/lib"; do
     echo "with the libdir $libdir hrad.pc looks for headers in $said" >&2 && exit 1
   }
   rm -r configured-only
+done
+
+# Headers in a folder of their own, in the prefix and outside: pkg-config and CMake both know it. The
+# library is the one that was built.
+kept() { sed -n "s/^$1:[A-Z]*=/-D$1=/p" "$HRAD_BINARY_DIR/CMakeCache.txt"; }
+for includedir in include/of-hrad "$folder/elsewhere/include"; do
+  configure_only "$(kept BUILD_SHARED_LIBS)" "$(kept HRAD_EMBREE)" "$(kept CMAKE_CXX_COMPILER)" \
+    -DHRAD_PYTHON=OFF -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_INSTALL_INCLUDEDIR="$includedir"
+  mkdir -p configured-only/lib
+  cp -P "$HRAD_BINARY_DIR"/lib/libhrad.* configured-only/lib
+  for component in library development; do
+    cmake --install configured-only --component $component >installed
+  done
+  echo "headers in $includedir"
+  make -s -C consumers/makefile clean
+  PKG_CONFIG_PATH=$folder/prefix/lib/pkgconfig make -s -C consumers/makefile CFLAGS="$flags" work_plane
+  cmake -S consumers/cmake -B cmake-headers -DCMAKE_PREFIX_PATH="$folder/prefix" \
+    "-DCMAKE_C_FLAGS=$flags" >configured || { cat configured && exit 1; }
+  cmake --build cmake-headers >built || { cat built && exit 1; }
+  rm -r configured-only cmake-headers prefix
 done
