@@ -117,7 +117,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-mpi4py)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/pkgconfig/debian/python/postinst
     ${PROJECT_SOURCE_DIR}/pkgconfig/debian/python/prerm)
 add_package(documentation hrad-doc doc "" "${what}, documents and examples"
-  "This package has the README and programs in C, C++ and Fortran.")
+  "This package has the README and programs in C, C++, Fortran and Python.")
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 
 include(CPack)

@@ -47,7 +47,17 @@ fi
 has runtime bin/hrad man1/hrad.1 man5/hrad-scene.5 man7/hrad-params.7 bash-completion/completions/hrad
 has development include/hrad/hrad.h "$library" pkgconfig/hrad.pc hradConfig.cmake hradTargets.cmake \
   man3/libhrad.3 man3/hrad_solve.3
-has documentation README.md LICENSE examples/work_plane.c examples/makefile/Makefile
+# Every example, and nothing else: tests and what they share stay in the sources.
+(cd "$HRAD_SOURCE_DIR/tests/consumers" && find . -mindepth 2 -name '__pycache__' -prune -o -mindepth 2 -type f \
+  -regex '.*/\(Makefile\|CMakeLists\.txt\|[a-z_]*\.\(c\|cpp\|f90\|sh\|py\)\)' -print && echo ./work_plane.c) |
+  sort >examples
+[[ $(wc -l <examples) -ge 8 ]]
+sed -n 's|^.*/doc/hrad/examples|.|p' documentation.files | diff examples - ||
+  complain "the documentation has other examples (>) than the sources (<)"
+has documentation README.md LICENSE examples/batch/job.sh examples/python/work_plane.py
+for folder in whole documentation; do
+  if (cd $folder && find . -type d -empty) | grep .; then complain "these folders are empty"; fi
+done
 if grep -q '^HRAD_MPI:BOOL=ON' "$HRAD_BINARY_DIR/CMakeCache.txt"; then
   has development_mpi include/hrad/hrad_mpi.h 'libhrad_mpi\.[aso]*' pkgconfig/hrad-mpi.pc hradMpiTargets.cmake
 fi
