@@ -5,4 +5,4 @@ cd "${HRAD_SOURCE_DIR:?the path of the sources}"
 command -v shellcheck >/dev/null || { echo "skipped: no shellcheck"; exit 77; }
 mapfile -t scripts < <(find cli man tests bindings -name '*.sh')
 [[ ${#scripts[@]} -gt 20 ]]
-shellcheck "${scripts[@]}" cli/hrad.bash .ci/run
+shellcheck "${scripts[@]}" cli/hrad.bash .ci/run pkgconfig/debian/python/{postinst,prerm}
