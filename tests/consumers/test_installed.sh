@@ -37,7 +37,7 @@ export LD_LIBRARY_PATH=$library_path
 manual=$(dirname "$(find after -name man3)")
 while read -r name; do
   [[ -s $manual/man3/$name.3 ]] || { echo "no man page $name(3)" >&2 && exit 1; }
-done < <(sed -n 's/^HRAD_API.*[ *]\(hrad_[a-z_]*\)(.*/\1/p' "$HRAD_SOURCE_DIR/include/hrad/hrad.h")
+done < <(sed -n 's/^HRAD_API.*[ *]\(hrad_[a-z_]*\)(.*/\1/p' "$HRAD_SOURCE_DIR"/include/hrad/*.h)
 while read -r link; do
   [[ -s $manual/$link ]] || { echo "a link of man leads to $link, which is not there" >&2 && exit 1; }
 done < <(sed -n 's/^\.so //p' "$manual"/man3/*)

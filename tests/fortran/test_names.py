@@ -1,5 +1,5 @@
-"""The module hrad has all of hrad.h by name: every function, constant and struct with its fields,
-under a documenting comment; and the Fortran tests call every function."""
+"""The modules hrad and hrad_mpi have all of hrad.h and hrad_mpi.h by name: every function, constant
+and struct with its fields, under a documenting comment; and the Fortran tests call every function."""
 
 import glob
 import os
@@ -26,10 +26,15 @@ def code_of(text):
     return re.sub(r"&\s*\n\s*&?", " ", text)
 
 
+def functions_of(header):
+    return re.findall(r"\bHRAD_API\b[^;(]*?\b(hrad_\w+)\s*\(", header)
+
+
 HEADER = re.sub(r"/\*.*?\*/", "", read("include/hrad/hrad.h"), flags=re.S)
-FUNCTIONS = re.findall(r"\bHRAD_API\b[^;(]*?\b(hrad_\w+)\s*\(", HEADER)
+FUNCTIONS = functions_of(HEADER)
+MPI_FUNCTIONS = functions_of(re.sub(r"/\*.*?\*/", "", read("include/hrad/hrad_mpi.h"), flags=re.S))
 BINDING = read_all("bindings/fortran/*.f90")
-BINDING.pop("bindings/fortran/hrad_mpi.f90")  # of another header, with tests of its own
+MPI_MODULE = BINDING.pop("bindings/fortran/hrad_mpi.f90")
 MODULE = code_of(BINDING["bindings/fortran/hrad.f90"])
 CODE = {path: code_of(text) for path, text in BINDING.items()}
 TESTS = {path: code_of(text) for path, text in read_all("tests/fortran/test_*.f90").items()}
@@ -55,6 +60,20 @@ class Names(unittest.TestCase):
             head = re.compile(
                 r"^  +!.*\n *(?:interface %s\n|(?:subroutine|function) %s\()" % (name, name), re.M)
             self.assertTrue(any(head.search(text) for text in BINDING.values()), name)
+
+    def test_module_hrad_mpi_has_the_functions_of_its_header(self):
+        # What takes a communicator of C has a sister hrad_..._f for that of Fortran, which there has
+        # the name without the ending.
+        sisters = {name for name in MPI_FUNCTIONS if name.endswith("_f")}
+        self.assertEqual(set(MPI_FUNCTIONS), sisters | {name[:-2] for name in sisters})
+        self.assertEqual(set(re.findall(r'bind\(c, name="(hrad_\w+)"\)', MPI_MODULE)), sisters)
+        public = re.findall(r"^ +public :: (.*)$", code_of(MPI_MODULE), re.M)
+        names = {name.strip() for names in public for name in names.split(",")}
+        self.assertEqual(names, {name[:-2] for name in sisters})
+        tests = [code_of(text) for text in read_all("tests/mpi/test_*.f90").values()]
+        for name in names:
+            self.assertRegex(MPI_MODULE, r"(?m)^  +!.*\n *subroutine %s\(" % name)
+            self.assertTrue(any(re.search(r"\b%s\s*\(" % name, text) for text in tests), name)
 
     def test_every_constant_has_its_value(self):
         constants = dict(re.findall(r"\b(HRAD_[A-Z_]+) = (-?\d+)\b", HEADER))

@@ -1,5 +1,6 @@
-"""The module hrad has all of hrad.h by name: every function with its arguments and their types, under
-a docstring, called by a test; every constant; every struct with its fields and their types."""
+"""The module hrad has all of hrad.h, and of hrad_mpi.h, by name: every function with its arguments and
+their types, under a docstring, called by a test; every constant; every struct with its fields and their
+types."""
 
 import ctypes
 import glob
@@ -20,7 +21,10 @@ def read(path):
 
 
 HEADER = re.sub(r"/\*.*?\*/", "", read("include/hrad/hrad.h"), flags=re.S)
-FUNCTIONS = re.findall(r"\bHRAD_API\s+([^;(]*?)\bhrad_(\w+)\s*\(([^)]*)\)", HEADER)
+FUNCTION = r"\bHRAD_API\s+([^;(]*?)\bhrad_(\w+)\s*\(([^)]*)\)"
+FUNCTIONS = re.findall(FUNCTION, HEADER)
+MPI_HEADER = re.sub(r"/\*.*?\*/", "", read("include/hrad/hrad_mpi.h"), flags=re.S)
+MPI_FUNCTIONS = re.findall(FUNCTION, MPI_HEADER)
 STRUCTS = dict(re.findall(r"typedef struct hrad_(\w+) \{(.*?)\}", HEADER, re.S))
 TESTS = "".join(read(os.path.relpath(path, support.SOURCE)) for path in glob.glob(
     os.path.join(support.SOURCE, "tests", "python", "test_*.py")))
@@ -106,6 +110,19 @@ class Names(unittest.TestCase):
         for _, name, _ in FUNCTIONS:
             called = "Solver" if name == "create" else name
             self.assertTrue(re.search(r"\.%s\b" % called, TESTS), name)
+
+    def test_functions_of_hrad_mpi_are_in_the_solver(self):
+        # Both are behind Solver(communicator): the one for C by name in its docstring, the one for
+        # Fortran, whose communicator is an integer as mpi4py gives it, called with its types.
+        names = {name for _, name, _ in MPI_FUNCTIONS}
+        self.assertEqual(names, {"create_mpi", "create_mpi_f"})
+        self.assertIn("hrad_create_mpi", hrad.Solver.__doc__)
+        _, _, arguments = next(one for one in MPI_FUNCTIONS if one[1] == "create_mpi_f")
+        self.assertEqual(arguments, "MPI_Fint comm, hrad_solver **solver")
+        called = read("bindings/python/hrad/_mpi.py")
+        self.assertIn('load_beside("hrad_mpi").hrad_create_mpi_f\n', called)
+        self.assertIn("argtypes = [ctypes.c_int, ctypes.POINTER(ctypes.c_void_p)]", called)
+        self.assertIn("Solver(MPI.COMM_WORLD)", read("tests/python/ranks.py"))
 
     def test_everything_public_has_a_docstring(self):
         for name in hrad.__all__:
