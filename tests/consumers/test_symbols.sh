@@ -28,8 +28,11 @@ done
 [[ $found != 0 ]]
 
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:[A-Z]*=\([0-9]*\.[0-9]*\)\..*/\1/p' "$HRAD_BINARY_DIR/CMakeCache.txt")
-for library in "$HRAD_BINARY_DIR"/lib/libhrad*.so; do
+# A static build has them too, for Python's tests.
+found=0
+for library in "$HRAD_BINARY_DIR"/lib/libhrad*.so "$HRAD_BINARY_DIR"/tests/python/libhrad*.so; do
   [[ -e $library ]] || continue
+  found=$((found + 1))
   name=$(basename "$library").$version
   objdump -p "$library" | grep -Eq "SONAME +$name\$" || { echo "$library is not $name" >&2 && exit 1; }
   nm --dynamic --defined-only --extern-only --format=posix "$library" >names
@@ -39,3 +42,4 @@ for library in "$HRAD_BINARY_DIR"/lib/libhrad*.so; do
     exit 1
   fi
 done
+[[ $found != 0 || ! -d $HRAD_BINARY_DIR/tests/python ]]
