@@ -43,6 +43,9 @@ if compgen -G './libhrad-mpi-dev_*.deb' >/dev/null; then
   read -r -a flags <<<"$(pkg-config --cflags --libs --static hrad-mpi)"
   mpicc -std=c99 -Wall -Wextra -Werror program.c -o program "${flags[@]}"
   mpirun -n 2 ./program
+  make -C examples/makefile shared_plane dimmed_room
+  mpirun -n 2 examples/makefile/shared_plane
+  mpirun -n 2 examples/makefile/dimmed_room
   mpirun -n 2 hrad solve cornell --accuracy 0.05 --json >said
   grep -q '"ranks": *2' said
 fi
@@ -65,8 +68,8 @@ add g++ cmake
 for language in C CXX Fortran; do
   cmake -S examples/cmake -B "cmake-$language" -DLANGUAGE=$language >configured || { cat configured && exit 1; }
   cmake --build "cmake-$language" >built || { cat built && exit 1; }
-  "cmake-$language/work_plane" >/dev/null
 done
+for program in C/work_plane CXX/version Fortran/heated_room; do "cmake-$program" >/dev/null; done
 
 # The manual pages, also under the names of functions.
 add man-db

@@ -62,22 +62,25 @@ for compiler in "${compilers[@]}"; do
   runs consumers/makefile/work_plane
 done
 
-languages=(C CXX)
+projects=(C/work_plane CXX/version)
 # Sanitizers of a build by clang are nothing that gfortran could link.
 if [[ -z $flags ]] && pkg-config --exists hrad-fortran; then
-  languages+=(Fortran)
+  projects+=(Fortran/heated_room 'C;Fortran/work_plane' 'C;Fortran/heated_room')
   echo "pkg-config, gfortran"
   make -s -C consumers/makefile heated_room
   runs consumers/makefile/heated_room
 fi
 
-for language in "${languages[@]}"; do
-  echo "CMake, $language"
-  cmake -S consumers/cmake -B "cmake-$language" -DLANGUAGE="$language" \
-    -DCMAKE_PREFIX_PATH="$folder/after" "-DCMAKE_${language}_FLAGS=$flags" >configured ||
+# The languages of a project, and a program in it.
+for project in "${projects[@]}"; do
+  languages=${project%/*}
+  project=cmake-${project//;/-}
+  echo "CMake, $project"
+  cmake -S consumers/cmake -B "${project%/*}" -DLANGUAGE="$languages" \
+    -DCMAKE_PREFIX_PATH="$folder/after" "-DCMAKE_${languages%;*}_FLAGS=$flags" >configured ||
     { cat configured && exit 1; }
-  cmake --build "cmake-$language" >built || { cat built && exit 1; }
-  runs "cmake-$language/work_plane"
+  cmake --build "${project%/*}" >built || { cat built && exit 1; }
+  runs "$project"
 done
 
 # Where libraries have folders of their own, and where theirs lies outside the prefix.

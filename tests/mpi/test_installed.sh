@@ -13,6 +13,7 @@ fi
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+cp -r "$HRAD_SOURCE_DIR/tests/consumers" "$folder/consumers"
 cd "$folder"
 
 cmake --install "$HRAD_BINARY_DIR" --prefix "$folder/before" >installed
@@ -72,6 +73,45 @@ for how in component behind neither; do
   cmake --build "cmake-$how" >built || { cat built && exit 1; }
   [[ $how == neither ]] || mpirun -n 1 "cmake-$how/program"
 done
+
+# The examples over several processes. One rank and two tell the same, whoever compiled them.
+tells() {  # PROGRAM LINES: as many on 2 ranks
+  mpirun -n 2 "$1" | tee said
+  [[ $(wc -l <said) == "$2" ]] || { echo "$1 does not print $2 lines" >&2 && exit 1; }
+  mpirun -n 1 "$1" | sed 's/by 1 ranks/by 2 ranks/' | diff - said || { echo "$1 on 1 rank (<) says otherwise" >&2 && exit 1; }
+}
+with_mpi=(C)
+for compiler in gcc clang; do
+  command -v $compiler >/dev/null || continue
+  OMPI_CC=$compiler mpicc --version | grep -qi "${compiler/gcc/free software}" || continue
+  echo "pkg-config, mpicc with $compiler"
+  make -s -C consumers/makefile clean
+  OMPI_CC=$compiler make -s -C consumers/makefile shared_plane CFLAGS="-std=c99 -Wall -Wextra -Werror"
+  tells consumers/makefile/shared_plane 1
+  cp said "plane-$compiler"
+done
+if compgen -G 'plane-*' >/dev/null; then sort -u plane-* | wc -l | grep -qx 1; fi
+grep -Eq '^plane: mean [1-9][0-9.]* W/m2, measured by 2 ranks$' said
+if [[ -n $(find after -name hrad-fortran-mpi.pc) ]]; then
+  echo "pkg-config, mpifort"
+  with_mpi+=('C;Fortran')
+  make -s -C consumers/makefile dimmed_room FFLAGS="-std=f2008 -O2 -Wall -Wextra -Werror"
+  tells consumers/makefile/dimmed_room 4
+  # Half the lamp, half the light.
+  awk 'NR <= 3 { light[NR] = $2 } END {
+    exit !(light[1] > 1 && light[2] > 0.4999 * light[1] && light[2] < 0.5001 * light[1] &&
+           light[3] > 0.4999 * light[2] && light[3] < 0.5001 * light[2]) }' said
+  after/bin/hrad check dimmed_room.hrad | grep -q '^patches: 14$'
+fi
+for languages in "${with_mpi[@]}"; do
+  echo "CMake, $languages with MPI"
+  build=cmake-${languages//;/-}
+  cmake -S consumers/cmake -B "$build" -DLANGUAGE="$languages" -DMPI=ON \
+    -DCMAKE_PREFIX_PATH="$folder/after" >configured || { cat configured && exit 1; }
+  cmake --build "$build" >built || { cat built && exit 1; }
+  tells "$build/shared_plane" 1
+done
+[[ $languages == C ]] || tells "$build/dimmed_room" 4
 
 # The README's program in Fortran, over several processes by what it says of them: found by pkg-config
 # and by CMake's component.
