@@ -14,6 +14,8 @@ fi
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+# shellcheck source=tests/mpi/environment.sh
+source tests/mpi/environment.sh
 export CCACHE_DISABLE=1  # what is compared must be made twice
 unset SOURCE_DATE_EPOCH
 one=$folder/one/libhrad

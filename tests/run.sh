@@ -4,8 +4,9 @@
 #   bash tests/run.sh          every test, some minutes on two cores; with clang and its libFuzzer
 #                              also every fuzz target for a minute
 #   bash tests/run.sh --full   before that the same tests under the address, undefined behaviour and
-#                              thread sanitizers, a build without options, Debian packages
-#                              (tests/packages.sh), the linters (tests/lint.sh), and all benchmarks
+#                              thread sanitizers, a build without options, every example from an installed
+#                              prefix (tests/consumers.sh), Debian packages (tests/packages.sh), the
+#                              linters (tests/lint.sh), and all benchmarks
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -70,6 +71,7 @@ if $full; then
     run_tests "build-$sanitizer" 3600
   done
   test_without_options
+  bash tests/consumers.sh
   bash tests/packages.sh
   bash tests/lint.sh
 fi

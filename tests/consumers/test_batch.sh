@@ -6,7 +6,7 @@ set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-job=$HRAD_SOURCE_DIR/tests/consumers/batch/job.sh
+job=${HRAD_JOB:-$HRAD_SOURCE_DIR/tests/consumers/batch/job.sh}
 scene=(cornell --accuracy 0.01 --threads 1)
 
 fail() {

@@ -107,6 +107,17 @@ for libdir in lib/some-machine-gnu "$folder/elsewhere/lib"; do
   rm -r configured-only
 done
 
+# C and C++ by clang, through CMake.
+if [[ -z $flags ]] && command -v clang >/dev/null && command -v clang++ >/dev/null; then
+  echo "CMake, clang"
+  CC=clang CXX=clang++ cmake -S consumers/cmake -B cmake-clang -DLANGUAGE='C;CXX' \
+    -DCMAKE_PREFIX_PATH="$folder/after" >configured || { cat configured && exit 1; }
+  grep -q '^-- The CXX compiler identification is Clang' configured
+  cmake --build cmake-clang >built || { cat built && exit 1; }
+  runs cmake-clang/work_plane
+  runs cmake-clang/version
+fi
+
 # Headers in a folder of their own, in the prefix and outside: pkg-config and CMake both know it. The
 # library is the one that was built.
 kept() { sed -n "s/^$1:[A-Z]*=/-D$1=/p" "$HRAD_BINARY_DIR/CMakeCache.txt"; }
