@@ -62,7 +62,8 @@ if grep -q '^HRAD_MPI:BOOL=ON' "$HRAD_BINARY_DIR/CMakeCache.txt"; then
   has development_mpi include/hrad/hrad_mpi.h 'libhrad_mpi\.[aso]*' pkgconfig/hrad-mpi.pc hradMpiTargets.cmake
 fi
 if grep -q '^HRAD_FORTRAN:BOOL=ON' "$HRAD_BINARY_DIR/CMakeCache.txt"; then
-  has fortran libhrad_fortran.a hrad.mod hrad.f90 pkgconfig/hrad-fortran.pc hradFortranTargets.cmake
+  has fortran libhrad_fortran.a hrad.mod hrad.f90 pkgconfig/hrad-fortran.pc hradFortranTargets.cmake \
+    man3/hrad-fortran.3
 fi
 
 # The copyright file of the packages has the terms of LICENSE, word for word.
