@@ -3,7 +3,7 @@
 # all are there.
 #   bash tests/setup.sh         what building the library and the tool needs
 #   bash tests/setup.sh tests   and what the tests need besides
-#   bash tests/setup.sh full    and what the linters and the packages need
+#   bash tests/setup.sh full    and what the linters, the packages and the largest tests need
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libhwloc-dev libcli11-dev libpng-dev
@@ -27,6 +27,8 @@ case "${1:-build}" in
     if [[ $1 == full ]]; then
       # The other linters.
       optional+=(clang-tidy cppcheck lintian)
+      # VTK reads exported files; Matplotlib draws the example in Python.
+      optional+=(python3-vtk9 python3-matplotlib)
       # What packages depend on, and a bare system to try them in.
       optional+=(dpkg-dev debootstrap)
     fi
