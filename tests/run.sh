@@ -55,10 +55,14 @@ fuzz() {
     target=$(basename "$source" .cpp)
     cmake --build build-fuzz --parallel "$(nproc)" --target "$target"
     mkdir -p "build-fuzz/corpus/$target"
-    dictionary=tests/fuzz/obj.dict
-    if [[ $target == fuzz_hrad ]]; then dictionary=tests/fuzz/hrad.dict; fi
+    # Words of the formats; the C interface is called by numbers.
+    dictionary=()
+    case $target in
+      fuzz_obj | fuzz_mtl) dictionary=(-dict=tests/fuzz/obj.dict) ;;
+      fuzz_hrad) dictionary=(-dict=tests/fuzz/hrad.dict) ;;
+    esac
     build-fuzz/tests/"$target" -max_total_time="$1" -timeout=60 -rss_limit_mb=3000 \
-      -dict="$dictionary" -artifact_prefix="build-fuzz/$target-" -print_final_stats=1 \
+      "${dictionary[@]}" -artifact_prefix="build-fuzz/$target-" -print_final_stats=1 \
       "build-fuzz/corpus/$target" "tests/fuzz/corpus/${target#fuzz_}"
   done
 }

@@ -1,6 +1,6 @@
 // Fuzz target: a sequence of calls of the C interface, drawn from the bytes with their arguments,
-// good and bad, in any order. Every status must be one of the header's, every error have a message,
-// and every number that comes out be one.
+// good and bad, in any order, also with files. Every status must be one of the header's, every
+// error have a message, and every number that comes out be one.
 #include <hrad/hrad.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <cstring>
 #include <vector>
 
+#include "fuzz/places.h"
 #include "fuzz/target.h"
 
 namespace {
@@ -49,12 +50,20 @@ int32_t stop_soon(const hrad_progress* progress, void* user) {
   return --*static_cast<int*>(user) <= 0;
 }
 
+void hear(int32_t level, const char* message, void* user) {
+  if (level < HRAD_LOG_ERROR || level > HRAD_LOG_DEBUG || !*message) std::abort();
+  ++*static_cast<int64_t*>(user);
+}
+
 class Calls {
  public:
   explicit Calls(Bytes bytes) : bytes_(bytes), values_(most_values) {
     check(hrad_create(&solver_));
   }
-  ~Calls() { hrad_destroy(&solver_); }
+  ~Calls() {
+    hrad_destroy(&solver_);
+    hrad_test::Places::get().tidy();
+  }
 
   void run() {
     check(hrad_set_int(solver_, "threads", 1));
@@ -69,7 +78,7 @@ class Calls {
  private:
   void call(int& solves) {
     const int32_t quantity = bytes_.byte() % 6 - 1, side = bytes_.byte() % 4 - 1;
-    switch (bytes_.byte() % 16) {
+    switch (bytes_.byte() % 22) {
       case 0:
         return add_material();
       case 1:
@@ -103,9 +112,37 @@ class Calls {
         return hrad_request_stop(solver_);
       case 14:
         return balance();
+      case 15:
+        return check(hrad_write_checkpoint(solver_, to_write()));
+      case 16:
+        return check(hrad_load_scene(solver_, to_read()));
+      case 17:
+        return check(hrad_export(solver_, to_write()));
+      case 18:
+        return check(hrad_read_checkpoint(solver_, to_read()));
+      case 19:
+        return check(hrad_lock_checkpoint(solver_, to_write()));
+      case 20:
+        return set_log();
       default:
-        return check(hrad_write_checkpoint(solver_, bytes_.byte() % 2 ? "" : nullptr));
+        return describe_checkpoint();
     }
+  }
+
+  const char* to_read() { return hrad_test::Places::get().to_read(bytes_.byte()); }
+  const char* to_write() { return hrad_test::Places::get().to_write(bytes_.byte()); }
+
+  void set_log() {
+    const auto level = static_cast<int32_t>(bytes_.byte() % 6 - 1);
+    check(hrad_set_log(solver_, bytes_.byte() % 4 ? hear : nullptr, &heard_, level));
+  }
+
+  void describe_checkpoint() {
+    char text[64];
+    int64_t needed = 0;
+    const char* file = to_read();
+    const int64_t size = bytes_.byte() % 66 - 1;
+    check(hrad_describe_checkpoint(file, bytes_.byte() % 8 ? text : nullptr, size, &needed));
   }
 
   void add_material() {
@@ -226,6 +263,7 @@ class Calls {
   hrad_solver* solver_ = nullptr;
   std::vector<double> values_;
   int stop_after_ = 0;
+  int64_t heard_ = 0;
 };
 
 }  // namespace
