@@ -36,11 +36,20 @@ double expected_batches(double accuracy) {
 
 // One drawn patch, all bands together, over the chance that it was drawn with.
 struct Residual {
+  int64_t rays = 0;
   double square = 0;  // of the difference between solved and measured; noise may make it negative
   double solved = 0;  // radiosity squared
   double signed_sum = 0, solved_sum = 0;
-  int64_t rays = 0;
 };
+
+bool take_residual(KnownResult& known, Residual& residual) {
+  Residual r;
+  if (!known.take(&r, 1) || !known.at_end() || !is_count(r.rays)) return false;
+  for (double value : {r.square, r.solved, r.signed_sum, r.solved_sum})
+    if (!std::isfinite(value)) return false;
+  residual = r;
+  return true;
+}
 
 // The patch is measured twice, independently: the product of the two differences has the square of
 // the true one as its mean, without a bias by noise.
@@ -172,7 +181,7 @@ double expected_rays_of_estimate(double accuracy) {
          rays_of_a_point;
 }
 
-std::optional<ErrorEstimate> estimate_error(const State& state, const StageTools& tools,
+std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tools,
                                             double accuracy) {
   ErrorEstimate estimate;
   const Patches patches(state);
@@ -186,9 +195,15 @@ std::optional<ErrorEstimate> estimate_error(const State& state, const StageTools
   for (int batch = 0; batch < most_batches; ++batch) {
     const size_t before = residuals.size();
     residuals.resize(before + patches_of_a_batch);
+    std::vector<uint8_t> is_new(patches_of_a_batch, 0);
+    state.journal.next_pass();
     const auto measure = [&](int64_t k, int worker) {
       if (!tools.exchange.my_turn(k)) return;
       const size_t number = before + static_cast<size_t>(k);
+      is_new[k] = !state.journal.known(static_cast<uint64_t>(k), [&](KnownResult& known) {
+        return take_residual(known, residuals[number]);
+      });
+      if (!is_new[k]) return;
       const uint64_t h = mix(tools.oracle.seed, number, 0x6572726f72u);
       const size_t pick =
           draw.pick((static_cast<double>(k) + unit_interval(h)) / patches_of_a_batch);
@@ -198,9 +213,16 @@ std::optional<ErrorEstimate> estimate_error(const State& state, const StageTools
       for (double* value : {&r.square, &r.solved, &r.signed_sum, &r.solved_sum}) *value *= worth;
       residuals[number] = r;
     };
-    const bool going_on = tools.team.for_each(patches_of_a_batch, measure, [&](int64_t done) {
-      return tools.progress((batch + static_cast<double>(done) / patches_of_a_batch) / batches);
-    });
+    const bool going_on = state.journal.for_each(
+        tools.team, patches_of_a_batch, measure,
+        [&](int64_t done) {
+          return tools.progress((batch + static_cast<double>(done) / patches_of_a_batch) / batches);
+        },
+        [&](LinkStep& step, int64_t k) {
+          if (!is_new[k]) return;
+          put(step.results, &residuals[before + static_cast<size_t>(k)], 1);
+          step.end_task(static_cast<uint64_t>(k));
+        });
     if (!tools.exchange.all_go_on(going_on)) return std::nullopt;
     for (size_t k = before; k < residuals.size(); ++k) estimate.rays += residuals[k].rays;
     std::vector<Residual> drawn(residuals.begin() + static_cast<std::ptrdiff_t>(before),

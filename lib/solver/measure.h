@@ -18,9 +18,8 @@ struct ErrorEstimate {
 
 // Irradiance by rays against the solution's own on patches drawn by area. What is measured is the
 // residual of one bounce, of several where much is reflected; its mean is carried on through all
-// further bounces. Nothing: stopped.
-std::optional<ErrorEstimate> estimate_error(const State& state, const StageTools& tools,
-                                            double accuracy);
+// further bounces. What each patch has shown is kept in the journal. Nothing: stopped.
+std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tools, double accuracy);
 // Rays that it may take, before anything is known of the error.
 double expected_rays_of_estimate(double accuracy);
 

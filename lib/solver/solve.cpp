@@ -118,10 +118,7 @@ void Solver::Run::clear_state() {
 
 // Measures the solution and makes it ready for queries.
 Status Solver::Run::finish() {
-  clock_.begin("measure", of_measuring(), [](double) { return 0.0; });
-  if (!solution_.finished &&
-      !solution_.measure(tools(first_rounds), params_.accuracy, solver_.stats_))
-    return Status::stopped;
+  if (!solution_.finished && !measure()) return Status::stopped;
   const bool missed = steered_by_accuracy() &&
                       error_but(3) > std::max(surely_missed * params_.accuracy, least_measurable);
   return solution_.converged && !missed ? Status::ok : Status::not_converged;

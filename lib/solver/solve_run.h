@@ -41,7 +41,7 @@ class Solver::Run {
   void begin_from_emission(int round);
   void begin_sweeps(int round);
   bool link();
-  void begin_journal(uint64_t key);
+  void begin_journal(uint64_t stage);
   void forget_journal();
   bool link_by_pairs();
   bool link_by_clusters();
@@ -51,6 +51,7 @@ class Solver::Run {
   double of_measuring() const;
   double of_later_rounds(int done, double seconds_of_last) const;
   bool sweep(int round);
+  bool measure();
 
   Solver& solver_;
   Solution& solution_;

@@ -22,6 +22,9 @@ namespace {
 constexpr double rounds_of_linking = 1.5, sweeps_of_rows = 0.05, growth_of_rounds = 2.3;
 constexpr double unknown = -1;
 
+// Names of stages in the journal's key; a round of refinement is its number.
+constexpr uint64_t stage_of_linking = 0, stage_of_measuring = uint64_t{1} << 32;
+
 uint64_t hash_of_light_on(const State& state) {
   Hasher hash;
   for (const auto* light : {&state.radiosity, &state.irradiance})
@@ -62,7 +65,7 @@ void Solver::Run::begin_sweeps(int round) {
 
 bool Solver::Run::link() {
   const auto start = std::chrono::steady_clock::now();
-  begin_journal(hash_of_linking(params_, solution_.light_hash, solution_.scale));
+  begin_journal(stage_of_linking);
   const bool done = by_rows_                        ? link_by_rows()
                     : params_.linking == "clusters" ? link_by_clusters()
                                                     : link_by_pairs();
@@ -79,7 +82,12 @@ bool Solver::Run::link() {
   return sweep(by_rows_ ? first_rounds : 0);
 }
 
-void Solver::Run::begin_journal(uint64_t key) {
+// All but linking follows from the light that the stage begins with.
+void Solver::Run::begin_journal(uint64_t stage) {
+  const bool keeps = params_.resumable != 0 || !state_.journal.empty();
+  const uint64_t light = keeps && stage != stage_of_linking ? hash_of_light_on(state_) : 0;
+  const uint64_t key =
+      mix(hash_of_linking(params_, solution_.light_hash, solution_.scale), stage, light);
   counted(state_, [&] { state_.journal.begin(key, state_.rays, state_.pairs); });
   state_.journal.recording = params_.resumable != 0;
 }
@@ -129,10 +137,7 @@ bool Solver::Run::round() {
   // The last round tells best what surfaces cost; before the first one there are their links.
   if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
   rebalance(state_, exchange_, work_);
-  // Every decision of a round follows from the light that it begins with.
-  const bool keeps = params_.resumable != 0 || !state_.journal.empty();
-  begin_journal(mix(hash_of_linking(params_, solution_.light_hash, solution_.scale),
-                    static_cast<uint64_t>(number), keeps ? hash_of_light_on(state_) : 0));
+  begin_journal(static_cast<uint64_t>(number));
   const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
   const bool done = refine_links(state_, tools(number), brightness, &work_);
   solver_.stats_.seconds_iterative +=
@@ -185,6 +190,14 @@ bool Solver::Run::sweep(int round) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   solution_.sweeping = !solution_.converged && !out_of_sweeps();
   return going_on;
+}
+
+bool Solver::Run::measure() {
+  clock_.begin("measure", of_measuring(), [](double) { return 0.0; });
+  begin_journal(stage_of_measuring);
+  if (!solution_.measure(tools(first_rounds), params_.accuracy, solver_.stats_)) return false;
+  forget_journal();
+  return true;
 }
 
 }  // namespace hrad

@@ -200,7 +200,8 @@ void finished_tasks_are_not_done_again() {
                {{"cornell", "pairs", "error", 0.3}, {"linking", 0, 0.5}, 10},
                {{"cornell", "pairs", "error", 0.3}, {"refine", 1, 0.9}, 10},
                {{"cornell", "clusters", "error", 0.5}, {"linking", 0, 0.7}, 20},
-               {{"cornell", "clusters", "error", 0.5}, {"refine", 1, 0.9}, 20}};
+               {{"cornell", "clusters", "error", 0.5}, {"refine", 1, 0.9}, 20},
+               {{"cornell", "rows", "error", 0.3}, {"measure", 0, 0.5}, 100}};
   for (auto [c, stop, least] : stops) {
     if (stop.iteration > 0) stop.iteration = sweeps_before_the_last_round(c);
     const auto whole = solver_of(c), solver = solver_of(c, 2);
