@@ -30,7 +30,7 @@ int points_of_a_half(double accuracy) {
 
 // Until it is known better. Small errors are hard to tell from noise.
 double expected_batches(double accuracy) {
-  constexpr double accuracy_of_one = 0.06;
+  constexpr double accuracy_of_one = 0.04;
   return std::max(1.0, std::min<double>(most_batches, accuracy_of_one / accuracy));
 }
 

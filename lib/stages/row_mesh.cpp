@@ -18,9 +18,10 @@ constexpr double worth_keeping = 0.5;
 // Of an open element: whether it is divided, and its children opened.
 enum Fate : uint8_t { stays, is_divided, goes_on };
 
-// To guess how much work there will be: points of direct light for each cell, work on a point
-// beside its shadow rays, and on a ray of a row with all that follows from it, in shadow rays.
-constexpr int64_t points_of_a_cell = 8;
+// To guess how much work there will be: points of direct light for each cell, and for each that is
+// a patch, as most of these are left as they are; work on a point beside its shadow rays, and on a
+// ray of a row with all that follows from it, in shadow rays.
+constexpr double points_of_a_cell = 8, points_of_a_small_patch = 3.5;
 constexpr double work_of_a_point = 10, work_of_a_row_ray = 9;
 constexpr size_t most_looked_at = 4096;
 
@@ -74,7 +75,13 @@ bool RowMesh::open_grid(const std::vector<NodeId>& cells) {
 // points: three of each cell.
 void RowMesh::guess_share(const std::vector<NodeId>& cells,
                           const std::vector<OrientedPoint>& points) {
-  corners_.expect(points_of_a_cell * static_cast<int64_t>(cells.size()));
+  const auto points_of = [&](NodeId cell) {
+    return forest_.nodes[cell].level == 0 ? points_of_a_small_patch : points_of_a_cell;
+  };
+  double expected = 0;
+  for (NodeId cell : cells) expected += points_of(cell);
+  corners_.expect(static_cast<int64_t>(expected));
+  guessed_points_ = static_cast<int64_t>(points_of_a_cell) * static_cast<int64_t>(cells.size());
   const size_t step = cells.size() / most_looked_at + 1;
   std::vector<double> shadow_rays((cells.size() + step - 1) / step);
   for_each_thing(tools_.team, shadow_rays.size(), [&](size_t k) {
@@ -82,7 +89,7 @@ void RowMesh::guess_share(const std::vector<NodeId>& cells,
   });
   double shadow = 0, rows = 0;
   for (size_t k = 0; k < shadow_rays.size(); ++k) {
-    shadow += points_of_a_cell * (work_of_a_point + shadow_rays[k]);
+    shadow += points_of(cells[step * k]) * (work_of_a_point + shadow_rays[k]);
     rows += work_of_a_row_ray * settings_.rays_of(forest_.area(forest_.nodes[cells[step * k]]));
   }
   if (shadow > 0) share_ = shadow / (shadow + rows);
@@ -150,7 +157,9 @@ bool RowMesh::refine(std::vector<NodeId> open) {
     corners_.want(points_of_own(asked, PointsOf::middles_of_edges));
     // Later levels together ask for about as many, and each leaf but small patches for its middle.
     const int64_t leaves = (static_cast<int64_t>(forest_.nodes.size()) - small_patches_) * 3 / 4;
-    corners_.expect(corners_.asked() + static_cast<int64_t>(asked.size()) + leaves);
+    const int64_t points = corners_.asked() + static_cast<int64_t>(asked.size()) + leaves;
+    // The first levels ask for few where later ones are many.
+    corners_.expect(std::max(points, (points + guessed_points_) / 2));
     if (!sample_corners()) return false;
     const std::vector<uint8_t> fate = fate_of(open, asked);
     std::vector<NodeId> parents;

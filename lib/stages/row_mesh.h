@@ -59,7 +59,8 @@ class RowMesh {
   State& state_;
   Forest& forest_;
   double share_ = 0.3;
-  int64_t small_patches_ = 0;  // left as they are
+  int64_t small_patches_ = 0;   // left as they are
+  int64_t guessed_points_ = 0;  // of direct light, before anything was known
   const StageTools tools_;
   const RowSettings settings_;
   const DirectLight& light_;
