@@ -2,13 +2,13 @@
 #include "visibility/inspection.h"
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include "base/draw.h"
 #include "base/frame.h"
 #include "base/hash.h"
 #include "base/triangle_points.h"
+#include "machine/process_usage.h"
 
 namespace hrad {
 
@@ -30,12 +30,12 @@ class Rays {
              bool also_in_solids) {
     const Draw draw(areas);
     if (!(draw.total() > 0)) return;
-    const auto start = std::chrono::steady_clock::now();
+    const double start = thread_seconds();
     for (int k = 0; k < rays_of_a_half; ++k) {
       const uint64_t h = mix(static_cast<uint64_t>(k), 0x696e7370u);
       shoot_from(patches[draw.pick((k + unit_interval(h)) / rays_of_a_half)], also_in_solids, h);
     }
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds_ += thread_seconds() - start;
   }
 
   double mean_distance() const {
