@@ -27,7 +27,7 @@ make_preload() {
     exit 77
   }
   # Sanitizers want to be loaded first.
-  if nm "$HRAD" 2>/dev/null | grep -q -e __asan_init -e __tsan_init; then
+  if nm "$HRAD" 2>/dev/null | grep -e __asan_init -e __tsan_init >/dev/null; then
     echo "skipped: the tool is built with a sanitizer"
     exit 77
   fi

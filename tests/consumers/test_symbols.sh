@@ -34,7 +34,7 @@ for library in "$HRAD_BINARY_DIR"/lib/libhrad*.so "$HRAD_BINARY_DIR"/tests/pytho
   [[ -e $library ]] || continue
   found=$((found + 1))
   name=$(basename "$library").$version
-  objdump -p "$library" | grep -Eq "SONAME +$name\$" || { echo "$library is not $name" >&2 && exit 1; }
+  objdump -p "$library" | grep -E "SONAME +$name\$" >names || { echo "$library is not $name" >&2 && exit 1; }
   nm --dynamic --defined-only --extern-only --format=posix "$library" >names
   grep -q '^hrad_create' names
   if grep -Ev "^hrad_[a-z_]+@@HRAD_$version T |^HRAD_$version A" names; then
