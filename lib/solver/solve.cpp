@@ -37,7 +37,6 @@ Solver::Run::Run(Solver& solver, std::chrono::steady_clock::time_point start)
           solver.observer_, start) {}
 
 Status Solver::Run::run() {
-  if (!exchange_.all_go_on(clock_.report(0, solver_.stats_.iterations))) return Status::stopped;
   if (params_.refine == 0) return sweep_again();
   start_over_if_the_light_changed();
   // Sweeps that a stop broke off go on first.

@@ -128,8 +128,7 @@ static int32_t write_on_the_way(const hrad_progress* progress, void* user) {
   return hrad_read_checkpoint(way->solver, path) != HRAD_ERROR_STATE ||
          hrad_lock_checkpoint(way->solver, path) != HRAD_ERROR_STATE ||
          hrad_state_hash(way->solver, &hash) != HRAD_ERROR_STATE ||
-         (status != HRAD_OK && strcmp(progress->stage, "initial") != 0 &&
-          strcmp(progress->stage, "linking") != 0);
+         (status != HRAD_OK && strcmp(progress->stage, "linking") != 0);
 }
 
 static void the_progress_function_writes(void** state) {
