@@ -154,13 +154,6 @@ bool LightGrid::open_from(Grid& grid, size_t first, const std::vector<OrientedPo
   return true;
 }
 
-LightGrid::Opener opened_by(ThreadTeam& team) {
-  return [&team](std::vector<LightGrid::Opened>& cubes, const std::function<void(size_t)>& find) {
-    return team.for_each(static_cast<int64_t>(cubes.size()),
-                         [&](int64_t k, int) { find(static_cast<size_t>(k)); });
-  };
-}
-
 // What a coarse cube knows of an emitter, or of the groups around it or the parts within.
 LightGrid::Seen LightGrid::seen_from(const Cube& cube, int32_t emitter) const {
   for (int32_t k = emitter; k >= 0; k = emitters_.all()[k].group)

@@ -95,7 +95,4 @@ class LightGrid {
   Grid coarse_, fine_;
 };
 
-// All of them, on these threads.
-LightGrid::Opener opened_by(ThreadTeam& team);
-
 }  // namespace hrad

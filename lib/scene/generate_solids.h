@@ -18,10 +18,10 @@ inline GridPoint operator+(GridPoint a, GridPoint b) { return {a.x + b.x, a.y + 
 
 Vec3 metres(GridPoint p);
 
-// Where a piece of furniture stands: its front or its back towards us, then moved to `origin`.
+// Where a piece of furniture stands: turned half round or not, then moved to `origin`.
 struct Place {
   GridPoint origin;
-  bool turned = false;  // about z, half round
+  bool turned = false;  // about z
   GridPoint operator()(GridPoint local) const {
     return origin + (turned ? GridPoint{-local.x, -local.y, local.z} : local);
   }

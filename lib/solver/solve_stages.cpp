@@ -65,6 +65,9 @@ void Solver::Run::begin_sweeps(int round) {
 
 bool Solver::Run::link() {
   const auto start = std::chrono::steady_clock::now();
+  const double later = by_rows_ ? sweeps_of_rows : rounds_of_linking;
+  clock_.begin("linking", unknown,
+               [this, later](double seconds) { return later * seconds + of_measuring(); });
   begin_journal(stage_of_linking);
   const bool done = by_rows_                        ? link_by_rows()
                     : params_.linking == "clusters" ? link_by_clusters()
@@ -97,8 +100,6 @@ void Solver::Run::forget_journal() {
 }
 
 bool Solver::Run::link_by_pairs() {
-  clock_.begin("linking", unknown,
-               [this](double seconds) { return rounds_of_linking * seconds + of_measuring(); });
   StageTools stage = tools(0);
   if (!measure_roots(state_, stage)) return false;
   reset_to_emission(state_);
@@ -107,8 +108,6 @@ bool Solver::Run::link_by_pairs() {
 }
 
 bool Solver::Run::link_by_clusters() {
-  clock_.begin("linking", unknown,
-               [this](double seconds) { return rounds_of_linking * seconds + of_measuring(); });
   StageTools stage = tools(0);
   if (!measure_roots(state_, stage)) return false;
   if (state_.forest.clusters.empty()) add_clusters(state_.forest);
@@ -119,8 +118,6 @@ bool Solver::Run::link_by_clusters() {
 
 bool Solver::Run::link_by_rows() {
   clear_state();
-  clock_.begin("linking", unknown,
-               [this](double seconds) { return sweeps_of_rows * seconds + of_measuring(); });
   const StageTools stage = tools(first_rounds);
   if (!measure_roots(state_, stage)) return false;
   return link_rows(

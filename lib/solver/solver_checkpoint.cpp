@@ -95,6 +95,8 @@ void Solver::take_over(CheckpointContent& content) {
   partition();
   Solution& s = *solution_;
   static_cast<SolveProgress&>(s) = content.progress;
+  // What a ray takes is known of this machine alone.
+  content.inspection.seconds_of_a_ray = s.inspection.seconds_of_a_ray;
   s.inspection = content.inspection;
   s.balance = std::move(content.balance);
   State& state = s.state;

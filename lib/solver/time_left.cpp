@@ -11,7 +11,7 @@ namespace {
 
 // Below the first share the pace says nothing; from the second on it alone counts.
 constexpr double least_share = 0.01, telling_share = 0.2;
-// The mean of the paces since these shares of the time counts: the first is steady, the second quick.
+// The pace is the mean of those since these shares of the time: one is steady, one quick.
 constexpr std::array<double, 2> windows = {1.0 / 8, 1.0 / 3};
 
 }  // namespace

@@ -116,14 +116,15 @@ struct on_the_way {
 };
 
 /* In the progress function a checkpoint can be written, here at every tenth report, and nothing else
- * be done. */
+ * can be done at any. */
 static int32_t write_on_the_way(const hrad_progress* progress, void* user) {
   struct on_the_way* way = (struct on_the_way*)user;
-  hrad_status status;
+  hrad_status status = HRAD_OK;
   uint64_t hash;
-  if (way->reports++ % 10 != 0) return 0;
-  status = hrad_write_checkpoint(way->solver, path);
-  if (status == HRAD_OK) ++way->written;
+  if (way->reports++ % 10 == 0) {
+    status = hrad_write_checkpoint(way->solver, path);
+    if (status == HRAD_OK) ++way->written;
+  }
   if (status == HRAD_ERROR_STATE) ++way->refused;
   return hrad_read_checkpoint(way->solver, path) != HRAD_ERROR_STATE ||
          hrad_lock_checkpoint(way->solver, path) != HRAD_ERROR_STATE ||

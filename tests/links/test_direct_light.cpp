@@ -16,7 +16,12 @@ using namespace hrad_test;
 
 void open(LightGrid& grid, const std::vector<OrientedPoint>& points, Workbench& bench) {
   int64_t rays = 0;
-  CHECK(grid.open(points, bench.team, bench.comm, opened_by(bench.team), rays));
+  const auto opener = [&](std::vector<LightGrid::Opened>& cubes,
+                          const std::function<void(size_t)>& find) {
+    return bench.team.for_each(static_cast<int64_t>(cubes.size()),
+                               [&](int64_t k, int) { find(static_cast<size_t>(k)); });
+  };
+  CHECK(grid.open(points, bench.team, bench.comm, opener, rays));
 }
 
 // A scene with its emitters as linking by rows sees them.
