@@ -195,15 +195,11 @@ std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tool
   for (int batch = 0; batch < most_batches; ++batch) {
     const size_t before = residuals.size();
     residuals.resize(before + patches_of_a_batch);
-    std::vector<uint8_t> is_new(patches_of_a_batch, 0);
-    state.journal.next_pass();
-    const auto measure = [&](int64_t k, int worker) {
-      if (!tools.exchange.my_turn(k)) return;
-      const size_t number = before + static_cast<size_t>(k);
-      is_new[k] = !state.journal.known(static_cast<uint64_t>(k), [&](KnownResult& known) {
-        return take_residual(known, residuals[number]);
-      });
-      if (!is_new[k]) return;
+    std::vector<size_t> own;  // of the batch
+    for (size_t k = 0; k < patches_of_a_batch; ++k)
+      if (tools.exchange.my_turn(static_cast<int64_t>(k))) own.push_back(k);
+    const auto measure = [&](size_t task, int worker) {
+      const size_t k = own[task], number = before + k;
       const uint64_t h = mix(tools.oracle.seed, number, 0x6572726f72u);
       const size_t pick =
           draw.pick((static_cast<double>(k) + unit_interval(h)) / patches_of_a_batch);
@@ -213,15 +209,15 @@ std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tool
       for (double* value : {&r.square, &r.solved, &r.signed_sum, &r.solved_sum}) *value *= worth;
       residuals[number] = r;
     };
-    const bool going_on = state.journal.for_each(
-        tools.team, patches_of_a_batch, measure,
+    const auto residual = [&](size_t task) -> Residual& { return residuals[before + own[task]]; };
+    const bool going_on = state.journal.next_pass_of(
+        tools.team, own.size(),
+        {[&](size_t task) { return static_cast<uint64_t>(own[task]); },
+         [&](size_t task, KnownResult& known) { return take_residual(known, residual(task)); },
+         measure, [&](size_t task, Bytes& bytes) { put(bytes, &residual(task), 1); }},
         [&](int64_t done) {
-          return tools.progress((batch + static_cast<double>(done) / patches_of_a_batch) / batches);
-        },
-        [&](LinkStep& step, int64_t k) {
-          if (!is_new[k]) return;
-          put(step.results, &residuals[before + static_cast<size_t>(k)], 1);
-          step.end_task(static_cast<uint64_t>(k));
+          return tools.progress(
+              (batch + static_cast<double>(done) / static_cast<double>(own.size())) / batches);
         });
     if (!tools.exchange.all_go_on(going_on)) return std::nullopt;
     for (size_t k = before; k < residuals.size(); ++k) estimate.rays += residuals[k].rays;

@@ -22,29 +22,23 @@ bool measure_exposure(State& state, const StageTools& tools, const std::vector<N
   const LinkSampler sampler(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                             tools.oracle.near_ratio);
   const auto surface_of = [&](size_t k) { return nodes[elements[k]].surface; };
-  const auto name_of = [&](size_t k) { return name_of_element(state.forest, elements[k]); };
   std::vector<float> exposed(elements.size(), 0.0f);
-  std::vector<uint8_t> is_new(elements.size(), 0);
-  state.journal.next_pass();
-  const bool going_on = state.journal.for_each(
-      tools.team, static_cast<int64_t>(elements.size()),
-      [&](int64_t task, int) {
-        const size_t k = static_cast<size_t>(task);
-        if (!tools.exchange.mine(surface_of(k))) return;
-        const Surface& surface = state.forest.surfaces[surface_of(k)];
-        exposed[k] = 1;
-        if (!tools.exposure.can_be_sealed(surface.patch, surface.side)) return;
-        is_new[k] = !state.journal.known(
-            name_of(k), [&](KnownResult& known) { return take_share(known, exposed[k]); });
-        if (is_new[k]) exposed[k] = sampler.exposed_share(nodes[elements[k]]);
-      },
-      [&](int64_t) { return tools.progress(0); },
-      [&](LinkStep& step, int64_t task) {
-        const size_t k = static_cast<size_t>(task);
-        if (!is_new[k]) return;
-        put(step.results, &exposed[k], 1);
-        step.end_task(name_of(k));
-      });
+  std::vector<size_t> looked_at;  // of the own ones; the others are exposed all over
+  for (size_t k = 0; k < elements.size(); ++k) {
+    if (!tools.exchange.mine(surface_of(k))) continue;
+    exposed[k] = 1;
+    const Surface& surface = state.forest.surfaces[surface_of(k)];
+    if (tools.exposure.can_be_sealed(surface.patch, surface.side)) looked_at.push_back(k);
+  }
+  const auto element = [&](size_t task) { return elements[looked_at[task]]; };
+  const auto share = [&](size_t task) -> float& { return exposed[looked_at[task]]; };
+  const bool going_on = state.journal.next_pass_of(
+      tools.team, looked_at.size(),
+      {[&](size_t task) { return name_of_element(state.forest, element(task)); },
+       [&](size_t task, KnownResult& known) { return take_share(known, share(task)); },
+       [&](size_t task, int) { share(task) = sampler.exposed_share(nodes[element(task)]); },
+       [&](size_t task, Bytes& bytes) { put(bytes, &share(task), 1); }},
+      [&](int64_t) { return tools.progress(0); });
   if (!tools.exchange.all_go_on(going_on)) return false;
   tools.exchange.share(exposed, surface_of);
   for (size_t k = 0; k < exposed.size(); ++k) nodes[elements[k]].exposed = exposed[k];

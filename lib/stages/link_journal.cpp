@@ -108,6 +108,28 @@ bool LinkJournal::for_each(ThreadTeam& team, int64_t count,
   return going_on;
 }
 
+bool LinkJournal::next_pass_of(ThreadTeam& team, size_t count, const Results& results,
+                               const std::function<bool(int64_t done)>& between) {
+  next_pass();
+  std::vector<uint8_t> is_new(count, 0);
+  return for_each(
+      team, static_cast<int64_t>(count),
+      [&](int64_t task, int worker) {
+        const size_t k = static_cast<size_t>(task);
+        is_new[k] = known_.empty() || !known(results.name(k), [&](KnownResult& known) {
+                      return results.take(k, known);
+                    });
+        if (is_new[k]) results.make(k, worker);
+      },
+      between,
+      [&](LinkStep& step, int64_t task) {
+        const size_t k = static_cast<size_t>(task);
+        if (!is_new[k]) return;
+        results.put(k, step.results);
+        step.end_task(results.name(k));
+      });
+}
+
 void LinkJournal::record(LinkStep step) {
   if (step.names.empty()) return;
   step.pass = pass_;

@@ -94,6 +94,17 @@ class LinkJournal {
                 const std::function<void(int64_t task, int worker)>& body,
                 const std::function<bool(int64_t done)>& between,
                 const std::function<void(LinkStep& step, int64_t task)>& add);
+  // The tasks of the next pass where each has one result, that of task k: take(k, known) says
+  // whether it has taken what is known of it, else make(k, worker) makes it; put(k, bytes) gives
+  // it.
+  struct Results {
+    std::function<uint64_t(size_t k)> name;
+    std::function<bool(size_t k, KnownResult& known)> take;
+    std::function<void(size_t k, int worker)> make;
+    std::function<void(size_t k, Bytes& bytes)> put;
+  };
+  bool next_pass_of(ThreadTeam& team, size_t count, const Results& results,
+                    const std::function<bool(int64_t done)>& between);
 
   // To be kept in a file.
   uint64_t key() const { return key_; }

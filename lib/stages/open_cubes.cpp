@@ -41,24 +41,13 @@ bool open_cubes(LightGrid& grid, const std::vector<OrientedPoint>& points, State
                 const StageTools& tools) {
   const size_t emitters = grid.emitters().all().size();
   const auto opener = [&](std::vector<Opened>& cubes, const std::function<void(size_t)>& find) {
-    state.journal.next_pass();
-    std::vector<uint8_t> is_new(cubes.size(), 0);
-    return state.journal.for_each(
-        tools.team, static_cast<int64_t>(cubes.size()),
-        [&](int64_t task, int) {
-          const size_t k = static_cast<size_t>(task);
-          is_new[k] = !state.journal.known(cubes[k].name, [&](KnownResult& known) {
-            return take_cube(known, emitters, cubes[k]);
-          });
-          if (is_new[k]) find(k);
-        },
-        [&](int64_t) { return tools.progress(0); },
-        [&](LinkStep& step, int64_t task) {
-          const size_t k = static_cast<size_t>(task);
-          if (!is_new[k]) return;
-          put_cube(cubes[k], step.results);
-          step.end_task(cubes[k].name);
-        });
+    return state.journal.next_pass_of(
+        tools.team, cubes.size(),
+        {[&](size_t k) { return cubes[k].name; },
+         [&](size_t k, KnownResult& known) { return take_cube(known, emitters, cubes[k]); },
+         [&](size_t k, int) { find(k); },
+         [&](size_t k, Bytes& bytes) { put_cube(cubes[k], bytes); }},
+        [&](int64_t) { return tools.progress(0); });
   };
   return grid.open(points, tools.team, tools.exchange.comm(), opener, state.rays);
 }
