@@ -12,7 +12,10 @@ namespace {
 // Below the first share the pace says nothing; from the second on it alone counts.
 constexpr double least_share = 0.01, telling_share = 0.2;
 // The pace is the mean of those since these shares of the time: one is steady, one quick.
-constexpr std::array<double, 2> windows = {1.0 / 8, 1.0 / 3};
+struct Window {
+  double since, weight;
+};
+constexpr std::array<Window, 2> windows = {{{1.0 / 8, 2.0 / 3}, {1.0 / 3, 1.0 / 3}}};
 
 }  // namespace
 
@@ -41,7 +44,8 @@ double TimeLeft::left_of_stage(double elapsed) const {
   const double by_expectation = expected_ < 0 ? -1 : std::max(0.0, expected_ - elapsed);
   if (share_ < least_share || !(elapsed > 0)) return by_expectation;
   double pace = 0;
-  for (const double from : windows) pace += pace_since(from * elapsed, elapsed) / windows.size();
+  for (const Window& window : windows)
+    pace += window.weight * pace_since(window.since * elapsed, elapsed);
   if (!(pace > 0)) pace = share_ / elapsed;
   const double by_pace = (1 - share_) / pace;
   if (by_expectation < 0) return by_pace;

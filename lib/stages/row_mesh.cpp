@@ -23,6 +23,8 @@ enum Fate : uint8_t { stays, is_divided, goes_on };
 // ray of a row with all that follows from it, in shadow rays.
 constexpr double points_of_a_cell = 8, points_of_a_small_patch = 3.5;
 constexpr double work_of_a_point = 10, work_of_a_row_ray = 9;
+// Points of a level over those of the one before, at the most.
+constexpr double most_growth = 0.6;
 constexpr size_t most_looked_at = 4096;
 
 StageTools reporting_to_share(StageTools tools, const double& share) {
@@ -81,7 +83,6 @@ void RowMesh::guess_share(const std::vector<NodeId>& cells,
   double expected = 0;
   for (NodeId cell : cells) expected += points_of(cell);
   corners_.expect(static_cast<int64_t>(expected));
-  guessed_points_ = static_cast<int64_t>(points_of_a_cell) * static_cast<int64_t>(cells.size());
   const size_t step = cells.size() / most_looked_at + 1;
   std::vector<double> shadow_rays((cells.size() + step - 1) / step);
   for_each_thing(tools_.team, shadow_rays.size(), [&](size_t k) {
@@ -147,19 +148,31 @@ std::vector<ElementPoints> RowMesh::points_of_own(const std::vector<NodeId>& ele
   return all;
 }
 
+// To guess how much work there will be, of the points that two levels ask for: later levels go on
+// as these did, each of their points brings a leaf, and each leaf but small patches asks for its
+// middle.
+int64_t RowMesh::points_after(double of_level, double of_level_before) const {
+  const double growth =
+      of_level_before > 0 ? std::min(most_growth, of_level / of_level_before) : most_growth;
+  const double of_later_levels = of_level * growth / (1 - growth);
+  const double leaves =
+      static_cast<double>(static_cast<int64_t>(forest_.nodes.size()) - small_patches_) * 3 / 4;
+  return static_cast<int64_t>(leaves + of_level + 2 * of_later_levels);
+}
+
 // Divides the open elements, whose corners are known, until direct light is linear between them.
 bool RowMesh::refine(std::vector<NodeId> open) {
+  double of_level_before = 0;
   while (!open.empty()) {
     const std::vector<NodeId> asked =
         gathered<NodeId>(tools_.team, open.size(), [&](size_t k, std::vector<NodeId>& some) {
           if (is_mine(open[k]) && may_divide(open[k])) some.push_back(open[k]);
         });
+    const int64_t asked_before = corners_.asked();
     corners_.want(points_of_own(asked, PointsOf::middles_of_edges));
-    // Later levels together ask for about as many, and each leaf but small patches for its middle.
-    const int64_t leaves = (static_cast<int64_t>(forest_.nodes.size()) - small_patches_) * 3 / 4;
-    const int64_t points = corners_.asked() + static_cast<int64_t>(asked.size()) + leaves;
-    // The first levels ask for few where later ones are many.
-    corners_.expect(std::max(points, (points + guessed_points_) / 2));
+    const double of_level = static_cast<double>(corners_.asked() - asked_before);
+    corners_.expect(corners_.asked() + points_after(of_level, of_level_before));
+    of_level_before = of_level;
     if (!sample_corners()) return false;
     const std::vector<uint8_t> fate = fate_of(open, asked);
     std::vector<NodeId> parents;

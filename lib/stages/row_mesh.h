@@ -44,6 +44,7 @@ class RowMesh {
   bool make_cells();
   bool keep_small_patches(std::vector<NodeId>& open);
   bool refine(std::vector<NodeId> open);
+  int64_t points_after(double of_level, double of_level_before) const;
   std::vector<uint8_t> fate_of(const std::vector<NodeId>& open,
                                const std::vector<NodeId>& asked) const;
   std::vector<ElementPoints> points_of_own(const std::vector<NodeId>& elements,
@@ -59,8 +60,7 @@ class RowMesh {
   State& state_;
   Forest& forest_;
   double share_ = 0.3;
-  int64_t small_patches_ = 0;   // left as they are
-  int64_t guessed_points_ = 0;  // of direct light, before anything was known
+  int64_t small_patches_ = 0;  // left as they are
   const StageTools tools_;
   const RowSettings settings_;
   const DirectLight& light_;
