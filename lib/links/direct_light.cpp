@@ -44,6 +44,12 @@ double factor_from(Vec3 x, Vec3 normal, const Triangle& source, Vec3 normal_y, d
           kernel(x, normal, (source.c + source.a) * 0.5, normal_y));
 }
 
+// By how much the exposed part of an emitter lies better, or worse, than all of it.
+double gain_of_place(const Emitter& e, Vec3 x, Vec3 normal) {
+  const double even = kernel(x, normal, e.even_center, e.normal);
+  return even > 0 ? kernel(x, normal, e.exposed_center, e.normal) / even : 1;
+}
+
 }  // namespace
 
 // A packet under way, with the rays of one emitter or of several.
@@ -132,7 +138,7 @@ void DirectLight::add_group(const Emitter& group, int rays, uint64_t key,
   batch.up_to.clear();
   for (int32_t member : group.members) {
     const Emitter& e = emitters_.all()[member];
-    all += kernel(point.place, point.normal, e.center, e.normal) * e.area / pi;
+    all += kernel(point.place, point.normal, e.center, e.normal) * e.exposed_area / pi;
     batch.up_to.push_back(all);
   }
   if (!(all > 0)) return;
@@ -176,10 +182,14 @@ void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<L
       links.push_back({e.cluster, static_cast<float>(part.factor * share)});
       continue;
     }
-    for (NodeId root : e.surfaces) {
+    const bool partly_sealed = e.exposed_area < e.area && above_horizon;
+    const double gain = partly_sealed ? gain_of_place(e, point.place, point.normal) : 1;
+    for (size_t k = 0; k < e.surfaces.size(); ++k) {
+      const NodeId root = e.surfaces[k];
       const double factor = factor_from(point.place, point.normal, forest_.root_triangle(root),
                                         e.normal, radii, above_horizon);
-      if (factor > 0) links.push_back({root, static_cast<float>(factor * share)});
+      if (factor > 0)
+        links.push_back({root, static_cast<float>(factor * e.exposed[k] * gain * share)});
     }
   }
   batch.packet.active = 0;

@@ -34,14 +34,26 @@ bool share_an_edge(const Triangle& a, const Triangle& b) {
   return common >= 2;
 }
 
-void finish(const Forest& forest, Emitter& e) {
-  Vec3 sum{0, 0, 0};
+// Places that are looked at for the middle of what is exposed, and in all to find sixteen that are:
+// nearly all may be sealed.
+constexpr uint32_t places_of_a_center = 64, most_places = 4096;
+
+bool is_sealed(const Forest& forest, const Exposure& exposure, NodeId root, Vec3 place) {
+  const Surface& s = forest.surfaces[root];
+  return exposure.can_be_sealed(s.patch, s.side) && exposure.sealed(s.patch, s.side, place);
+}
+
+void finish(const Forest& forest, const Exposure& exposure, Emitter& e) {
+  Vec3 sum{0, 0, 0}, sum_even{0, 0, 0};
   std::vector<double> areas;
   for (NodeId root : e.surfaces) {
     const double area = forest.surfaces[root].area;
     sum = sum + forest.root_triangle(root).centroid() * area;
     e.area += area;
     areas.push_back(area);
+    e.exposed.push_back(forest.nodes[root].exposed);
+    e.exposed_area += area * e.exposed.back();
+    sum_even = sum_even + forest.root_triangle(root).centroid() * (area * e.exposed.back());
   }
   e.center = sum * (1 / e.area);
   for (NodeId root : e.surfaces) {
@@ -52,7 +64,9 @@ void finish(const Forest& forest, Emitter& e) {
   const Surface& first = forest.surfaces[e.surfaces.front()];
   const uint64_t key = mix(static_cast<uint64_t>(first.patch), static_cast<uint64_t>(first.side));
   const Draw draw(areas);
-  for (uint32_t k = 0; k < 16; ++k) {
+  Vec3 sum_exposed{0, 0, 0};
+  int exposed = 0, points = 0;
+  for (uint32_t k = 0; points < 16 || k < places_of_a_center; ++k) {
     double p[4];
     low_discrepancy_point(key, k, p);
     // The first coordinate picks the surface and goes on within it.
@@ -60,18 +74,26 @@ void finish(const Forest& forest, Emitter& e) {
     const NodeId root = e.surfaces[pick];
     double u, v;
     even_in_triangle(draw.rest(pick, p[0]), p[1], &u, &v);
-    e.point[k] = forest.root_triangle(root).at(u, v);
+    const Vec3 place = forest.root_triangle(root).at(u, v);
+    if (k < most_places && is_sealed(forest, exposure, root, place)) continue;
+    if (points < 16) e.point[points++] = place;
+    if (k >= places_of_a_center) continue;
+    sum_exposed = sum_exposed + place;
+    ++exposed;
   }
+  e.even_center = sum_even * (1 / e.exposed_area);
+  e.exposed_center = exposed > 0 ? sum_exposed * (1.0 / exposed) : e.even_center;
 }
 
 }  // namespace
 
-Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, double least_bright)
+Emitters::Emitters(const Forest& forest, const Exposure& exposure,
+                   const std::vector<float>& brightness, double least_bright)
     : of_node_(static_cast<size_t>(forest.surface_count()), -1), least_bright_(least_bright) {
   const Scene& scene = *forest.scene;
   for (NodeId root = 0; root < forest.surface_count(); ++root) {
     const Surface& surface = forest.surfaces[root];
-    if (!scene.emits(surface.patch)) continue;
+    if (!scene.emits(surface.patch) || !(forest.nodes[root].exposed > 0)) continue;
     // In an enclosure the mean radiosity equals the mean irradiance: what shines no brighter than
     // all else makes no noise.
     const double excess = brightness[root] - 1.0;
@@ -94,11 +116,11 @@ Emitters::Emitters(const Forest& forest, const std::vector<float>& brightness, d
     emitters_.back().brightness = excess;
     emitters_.back().surfaces.push_back(root);
   }
-  for (Emitter& e : emitters_) finish(forest, e);
+  for (Emitter& e : emitters_) finish(forest, exposure, e);
   for (size_t e = 0; e < emitters_.size(); ++e) tops_.push_back(static_cast<int32_t>(e));
 }
 
-void Emitters::join(Forest& forest) {
+void Emitters::join(Forest& forest, const Exposure& exposure) {
   if (emitters_.size() < worth_joining || !forest.clusters.empty()) return;
   std::vector<ClusterItem> items;
   for (const Emitter& e : emitters_)
@@ -107,7 +129,7 @@ void Emitters::join(Forest& forest) {
   of_node_.resize(forest.nodes.size(), -1);
   tops_.clear();
   const size_t singles = emitters_.size();
-  find_groups(forest, forest.top(), -1);
+  find_groups(forest, exposure, forest.top(), -1);
   for (size_t e = 0; e < emitters_.size(); ++e) {
     const int32_t number = static_cast<int32_t>(e), group = emitters_[e].group;
     if (group < 0)
@@ -141,7 +163,8 @@ std::vector<int32_t> Emitters::members_of(const Forest& forest, const Cluster& c
 }
 
 // Groups at or below a node, within the group `around`. Trees of clusters are flat enough.
-void Emitters::find_groups(const Forest& forest, NodeId id, int32_t around) {
+void Emitters::find_groups(const Forest& forest, const Exposure& exposure, NodeId id,
+                           int32_t around) {
   if (!Forest::is_cluster(forest.nodes[id])) return;
   const Cluster& cluster = forest.cluster(forest.nodes[id]);
   const std::vector<int32_t> members = members_of(forest, cluster);
@@ -158,7 +181,7 @@ void Emitters::find_groups(const Forest& forest, NodeId id, int32_t around) {
       const std::vector<NodeId>& surfaces = emitters_[member].surfaces;
       group.surfaces.insert(group.surfaces.end(), surfaces.begin(), surfaces.end());
     }
-    finish(forest, group);
+    finish(forest, exposure, group);
     for (int32_t member : members)
       group.thickness = std::max(
           group.thickness, std::fabs(dot(emitters_[member].center - group.center, group.normal)) +
@@ -166,7 +189,7 @@ void Emitters::find_groups(const Forest& forest, NodeId id, int32_t around) {
     emitters_.push_back(std::move(group));
     around = number;
   }
-  for (NodeId child : cluster.child) find_groups(forest, child, around);
+  for (NodeId child : cluster.child) find_groups(forest, exposure, child, around);
 }
 
 double Emitters::largest_factor(const Emitter& e, Vec3 center, double radius) {

@@ -7,17 +7,22 @@
 #include <vector>
 
 #include "hierarchy/forest.h"
+#include "visibility/exposure.h"
 
 namespace hrad {
 
 // Emitting surfaces that shine alike: of one plane, or a group of such emitters.
 struct Emitter {
   Vec3 center, normal;
-  double radius = 0, area = 0;
+  double radius = 0, area = 0, exposed_area = 0;
   double thickness = 0;   // how far from the plane through the center a group reaches
   double brightness = 0;  // radiosity over the scene's mean, in units of the mean irradiance
   std::vector<NodeId> surfaces;
-  // Sixteen points spread over it by area.
+  std::vector<double> exposed;  // the share of each surface that isn't sealed
+  // The middle of what is exposed, and what it would be if that were spread evenly over each
+  // surface.
+  Vec3 exposed_center, even_center;
+  // Sixteen points spread over its exposed part by area.
   Vec3 point[16];
   // Of a group: its cluster, the source of its links, and the numbers of the emitters in it.
   NodeId cluster = -1;
@@ -30,12 +35,14 @@ class Emitters {
  public:
   // brightness: per root, its radiosity in units of the scene's mean irradiance, reflected light
   // included. least_bright: what brightness squared times form factor must reach for an emitter to
-  // be bright where it is seen so large.
-  Emitters(const Forest& forest, const std::vector<float>& brightness, double least_bright);
+  // be bright where it is seen so large. The forest's roots know how much of them is exposed, and
+  // exposure where; what is sealed sends no light. It need not outlive this.
+  Emitters(const Forest& forest, const Exposure& exposure, const std::vector<float>& brightness,
+           double least_bright);
 
   // Where there are many, makes groups of those that face the same way and shine alike, and gives
   // the forest, of roots alone so far, a tree of clusters over the emitting surfaces.
-  void join(Forest& forest);
+  void join(Forest& forest, const Exposure& exposure);
 
   // The single ones, then the groups, larger ones before those within.
   const std::vector<Emitter>& all() const { return emitters_; }
@@ -68,7 +75,7 @@ class Emitters {
   static constexpr double sampling_margin = 2;
 
   std::vector<int32_t> members_of(const Forest& forest, const Cluster& cluster) const;
-  void find_groups(const Forest& forest, NodeId id, int32_t around);
+  void find_groups(const Forest& forest, const Exposure& exposure, NodeId id, int32_t around);
 
   std::vector<Emitter> emitters_;
   std::vector<int32_t> tops_;

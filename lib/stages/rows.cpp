@@ -121,8 +121,9 @@ int RowSettings::rays_of(double area) const {
 }
 
 bool link_rows(State& state, const StageTools& tools, const RowSettings& settings) {
-  Emitters emitters(state.forest, expected_brightness(state).of_node, settings.least_bright);
-  emitters.join(state.forest);
+  Emitters emitters(state.forest, tools.exposure, expected_brightness(state).of_node,
+                    settings.least_bright);
+  emitters.join(state.forest, tools.exposure);
   const Brightness expected = expected_brightness(state);
   LightGrid grid(emitters, tools.engine, settings.grid_size,
                  most_of_a_group * settings.shadow_noise);

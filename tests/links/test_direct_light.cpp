@@ -24,12 +24,18 @@ void open(LightGrid& grid, const std::vector<OrientedPoint>& points, Workbench& 
   CHECK(grid.open(points, bench.team, bench.comm, opener, rays));
 }
 
+State& with_exposed_shares(Workbench& bench) {
+  const LinkSampler sampler = bench.sampler();
+  for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
+  return bench.state;
+}
+
 // A scene with its emitters as linking by rows sees them.
 struct Lit {
   explicit Lit(Scene s, double noise = 1e-6, double least_bright = 1e-9)
       : bench(std::move(s)),
-        expected(expected_brightness(bench.state)),
-        emitters(bench.state.forest, expected.of_node, least_bright),
+        expected(expected_brightness(with_exposed_shares(bench))),
+        emitters(bench.state.forest, bench.exposure, expected.of_node, least_bright),
         grid(emitters, *bench.engine, 0.7, 8 * noise),
         light(bench.state.forest, *bench.engine, emitters, grid, noise) {}
 
@@ -53,7 +59,7 @@ struct Lit {
 // The same with groups.
 struct LitByGroups : Lit {
   explicit LitByGroups(Scene s, double noise) : Lit(std::move(s), noise) {
-    emitters.join(bench.state.forest);
+    emitters.join(bench.state.forest, bench.exposure);
   }
 };
 
@@ -112,6 +118,29 @@ void half_a_lamp_is_hidden() {
     wanted += exact(lit.bench.scene, x, up) / 2;
   }
   CHECK_NEAR(sum, wanted, 0.01 * wanted);
+}
+
+// A plate pressed against the lamp from x on: what is left shines, not so many sixteenths of it;
+// how much is left is measured to a fiftieth.
+void what_is_sealed_of_a_lamp_sends_nothing() {
+  for (double x : {0.14, 0.12, 0.06, 0.0}) {
+    Scene scene = floor_and_lamp(0.3), rest;
+    add_box(scene, {x, -1, 0.9999}, {1, 1, 1});
+    add_quad(rest, {-0.15, -0.15, 1}, {0, 0.3, 0}, {x + 0.15, 0, 0});
+    for (const Vec3& place : {Vec3{0.1, 0.2, 0}, Vec3{1, -0.7, 0}, Vec3{-2, 1, 0}}) {
+      Lit lit(scene);
+      const double wanted = point_to_triangle(place, up, rest.triangle(0)) +
+                            point_to_triangle(place, up, rest.triangle(1));
+      CHECK_NEAR(lit.at(place, up), wanted, 0.02 * wanted);
+    }
+  }
+}
+
+// A lamp that is pressed against another surface all over is none.
+void a_sealed_lamp_is_no_emitter() {
+  Scene scene = floor_and_lamp(0.3);
+  add_box(scene, {-1, -1, 0.99}, {1, 1, 1});
+  CHECK(Lit(scene).emitters.all().empty());
 }
 
 // Weak light takes one ray: any single answer is all or nothing, their mean is right.
@@ -227,6 +256,16 @@ Scene floor_and_many_lamps() {
   return scene;
 }
 
+// The same with a plate pressed against a quarter of each lamp.
+Scene floor_and_many_pressed_lamps() {
+  Scene scene = floor_and_many_lamps();
+  for (int k = 0; k < 24; ++k) {
+    const Vec3 low{0.7 * (k / 2) + 0.15, k % 2 ? 1.0 : -1.0, 3 + 0.1 * (k % 3)};
+    add_box(scene, low - Vec3{0, 0, 1e-4}, low + Vec3{0.05, 0.2, 0});
+  }
+  return scene;
+}
+
 // Groups fall into smaller ones and single emitters, each in one; lamps of another plane apart.
 void groups_hold_every_emitter_once() {
   LitByGroups lit(floor_and_many_lamps(), 1e-3);
@@ -288,8 +327,7 @@ void a_cube_sees_every_lamp_once() {
 }
 
 // Whether by one ray or by sixteen, a group brings on the average what its lamps bring.
-void groups_bring_what_their_lamps_bring() {
-  const Scene scene = floor_and_many_lamps();
+void bring_what_their_lamps_bring(const Scene& scene) {
   for (double x : {9.0, 20.0, 45.0}) {
     const Vec3 place{x, -0.5, 0};
     Lit single(scene, 1e-6);
@@ -310,6 +348,11 @@ void groups_bring_what_their_lamps_bring() {
   }
 }
 
+void groups_bring_what_their_lamps_bring() {
+  bring_what_their_lamps_bring(floor_and_many_lamps());
+  bring_what_their_lamps_bring(floor_and_many_pressed_lamps());
+}
+
 }  // namespace
 
 int main() {
@@ -317,6 +360,8 @@ int main() {
       HRAD_TEST(unoccluded_light_is_lamberts),
       HRAD_TEST(behind_a_horizon_there_is_none),
       HRAD_TEST(half_a_lamp_is_hidden),
+      HRAD_TEST(what_is_sealed_of_a_lamp_sends_nothing),
+      HRAD_TEST(a_sealed_lamp_is_no_emitter),
       HRAD_TEST(few_rays_are_unbiased),
       HRAD_TEST(a_furnace_has_no_bright_emitters),
       HRAD_TEST(faces_are_joined),

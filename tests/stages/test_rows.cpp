@@ -250,7 +250,7 @@ void points_of_a_contact_have_the_means_of_quadratic_fields() {
   const LinkSampler sampler = bench.sampler();
   for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
   const Brightness none{{1, 1, 1}, std::vector<float>(bench.state.forest.nodes.size(), 0.0f), {}};
-  const Emitters emitters(bench.state.forest, none.of_node, 1);
+  const Emitters emitters(bench.state.forest, bench.exposure, none.of_node, 1);
   LightGrid grid(emitters, *bench.engine, 1, 1);
   const DirectLight light(bench.state.forest, *bench.engine, emitters, grid, 0.1);
   const StageTools tools = bench.tools({});
