@@ -304,6 +304,22 @@ void groups_hold_every_emitter_once() {
   for (int count : met) CHECK_EQUAL(count, 1);
 }
 
+// Every other lamp twice as bright: none shares a group with one that is not.
+void groups_shine_alike() {
+  Scene scene = floor_and_many_lamps();
+  for (size_t patch = 2; patch < 50; ++patch)
+    if (patch / 2 % 2 == 0)
+      for (int b = 0; b < scene.bands; ++b) scene.emission[patch * scene.bands + b] *= 2;
+  LitByGroups lit(scene, 1e-3);
+  int groups = 0;
+  for (const Emitter& e : lit.emitters.all())
+    for (int32_t member : e.members) {
+      CHECK_EQUAL(lit.emitters.all()[member].brightness, e.brightness);
+      ++groups;
+    }
+  CHECK(groups > 0);
+}
+
 // What a cube looks at, groups and single lamps together, is every lamp once.
 void a_cube_sees_every_lamp_once() {
   LitByGroups lit(floor_and_many_lamps(), 1e-3);
@@ -369,6 +385,7 @@ int main() {
       HRAD_TEST(pilot_rays_tell_what_is_hidden),
       HRAD_TEST(what_is_hidden_and_weak_has_no_links),
       HRAD_TEST(groups_hold_every_emitter_once),
+      HRAD_TEST(groups_shine_alike),
       HRAD_TEST(a_cube_sees_every_lamp_once),
       HRAD_TEST(groups_bring_what_their_lamps_bring),
   };

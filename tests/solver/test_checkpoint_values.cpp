@@ -4,77 +4,16 @@
 #include <limits>
 #include <vector>
 
-#include "solver/checkpoint.h"
-#include "solver/checkpoint_files.h"
 #include "solver/checkpoint_runs.h"
 #include "solver/checkpoint_scene.h"
-#include "support/checkpoint_frame.h"
+#include "solver/wrong_values.h"
 
 using hrad::Link;
 using hrad::NodeId;
-using hrad::PackedBytes;
-using hrad::PackedReader;
 using hrad::Scene;
-using hrad::Section;
-using hrad::Status;
 using namespace hrad_test;
 
 namespace {
-
-std::vector<FrameRun>& section_of(Frame& frame, Section section) {
-  return frame[static_cast<size_t>(section)];
-}
-
-PackedReader reader_of(const std::string& raw) { return {raw.data(), raw.size(), {"test", 0}}; }
-
-// A small file, whose sections of the scene have one run each.
-struct Good {
-  explicit Good(const SolveCase& c) {
-    const Folder folder("values");
-    const auto solver = solver_of(c);
-    solver->solve();
-    solver->write_checkpoint(folder.file("a.hrad"));
-    frame = frame_of(bytes_of_file(folder.file("a.hrad")));
-    scene = solver->scene();
-    PackedReader sizes = reader_of(section_of(frame, Section::sizes)[0].raw);
-    std::vector<int64_t> n;
-    while (sizes.left() > 0) n.push_back(static_cast<int64_t>(sizes.varint()));
-    emitters = n[4] + n[5];
-    nodes = emitters + 4 * n[6];
-    points = n[12];
-    check_accepted(frame);
-  }
-
-  static void check_accepted(const Frame& frame) {
-    static_cast<void>(hrad::read_checkpoint(file_of(frame), 0));
-  }
-
-  Frame frame;
-  Scene scene;
-  int64_t emitters, nodes, points;  // emitters: nodes that direct light may come from
-};
-
-// Refused as damaged, with the section and the text.
-void refuses(const Frame& frame, Section section, const std::string& text) {
-  try {
-    static_cast<void>(hrad::read_checkpoint(file_of(frame), 0));
-  } catch (const hrad::Error& error) {
-    const std::string message = error.what();
-    CHECK(error.status() == Status::format);
-    const std::string named = std::string("section '") + hrad::section_name(section) + "', byte ";
-    if (message.find(named) == std::string::npos || message.find(text) == std::string::npos)
-      failed(__FILE__, __LINE__, "wanted " + named + "... " + text + ", got: " + message);
-    return;
-  }
-  failed(__FILE__, __LINE__, "accepted, wanted: " + text);
-}
-
-// The good file with other bytes in the first run of a section.
-Frame with(const Good& good, Section section, const PackedBytes& bytes) {
-  Frame frame = good.frame;
-  section_of(frame, section)[0].raw = bytes.bytes();
-  return frame;
-}
 
 Frame with_materials(const Good& good, const Scene& scene) {
   PackedBytes bytes;
