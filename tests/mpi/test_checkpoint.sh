@@ -4,21 +4,25 @@
 # shellcheck source=tests/mpi/common.sh
 . "$HRAD_SOURCE_DIR/tests/mpi/common.sh"
 
-scene=(cornell --accuracy 0.05 --set linking=pairs)
-wanted=$(hash_of "${scene[@]}")
-[ ${#wanted} = 16 ] || complain "no hash: $wanted"
-
 is_whole() {
   [ "$code" = 0 ] || complain "$ran: exit code $code: $(cat err)"
   holds "j['state_hash'] == '$wanted'"
 }
 
-# Written after every sweep, by all of them, while the solve goes on.
-launch 3 solve "${scene[@]}" --threads 1 --checkpoint a.hrad --checkpoint-interval 0.00001 \
-  --checkpoint-keep 3 -v --json
-ends
-is_whole
-[ "$(grep -c '^hrad: wrote a.hrad' err)" -ge 5 ] || complain "$ran: too few checkpoints: $(cat err)"
+# Written by all of them while the solve goes on: the longer, the busier this machine is, for several
+# of them.
+for accuracy in 0.05 0.03 0.02; do
+  scene=(cornell --accuracy "$accuracy" --set linking=pairs)
+  wanted=$(hash_of "${scene[@]}")
+  [ ${#wanted} = 16 ] || complain "no hash: $wanted"
+  launch 3 solve "${scene[@]}" --threads 1 --checkpoint a.hrad --checkpoint-interval 0.00001 \
+    --checkpoint-keep 3 -v --json
+  ends
+  is_whole
+  written=$(grep -c '^hrad: wrote a.hrad' err)
+  [ "$written" -lt 5 ] || break
+done
+[ "$written" -ge 5 ] || complain "$ran: too few checkpoints: $(cat err)"
 for file in a.hrad a.hrad.prev a.hrad.prev2 a.hrad.prev3; do works check $file; done
 # Any of them is a beginning, for any number of processes.
 mv a.hrad.prev3 early.hrad
