@@ -104,7 +104,7 @@ class RowTracer {
   const LightGrid& grid_;
   std::vector<NodeId> hits_;
   Hit met_[Forest::most_met];
-  Ray ray_[Forest::most_met];
+  Ray ray_[Forest::most_met] = {};
   size_t together_ = 0;
 };
 
