@@ -20,7 +20,7 @@ struct ErrorEstimate {
 // residual of one bounce, of several where much is reflected; its mean is carried on through all
 // further bounces. What each patch has shown is kept in the journal. Nothing: stopped.
 std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tools, double accuracy);
-// Rays that it may take, before anything is known of the error.
+// For how many rays, of those that go alone, it may go on, before anything is known of the error.
 double expected_rays_of_estimate(double accuracy);
 
 struct PowerBalance {
