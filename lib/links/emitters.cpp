@@ -38,11 +38,6 @@ bool share_an_edge(const Triangle& a, const Triangle& b) {
 // nearly all may be sealed.
 constexpr uint32_t places_of_a_center = 64, most_places = 4096;
 
-bool is_sealed(const Forest& forest, const Exposure& exposure, NodeId root, Vec3 place) {
-  const Surface& s = forest.surfaces[root];
-  return exposure.can_be_sealed(s.patch, s.side) && exposure.sealed(s.patch, s.side, place);
-}
-
 void finish(const Forest& forest, const Exposure& exposure, Emitter& e) {
   Vec3 sum{0, 0, 0}, sum_even{0, 0, 0};
   std::vector<double> areas;
@@ -61,12 +56,14 @@ void finish(const Forest& forest, const Exposure& exposure, Emitter& e) {
     for (const Vec3& corner : {t.a, t.b, t.c})
       e.radius = std::max(e.radius, length(corner - e.center));
   }
+  e.even_center = e.exposed_center = sum_even * (1 / e.exposed_area);
+  const bool partly_sealed = e.exposed_area < e.area;
   const Surface& first = forest.surfaces[e.surfaces.front()];
   const uint64_t key = mix(static_cast<uint64_t>(first.patch), static_cast<uint64_t>(first.side));
   const Draw draw(areas);
   Vec3 sum_exposed{0, 0, 0};
   int exposed = 0, points = 0;
-  for (uint32_t k = 0; points < 16 || k < places_of_a_center; ++k) {
+  for (uint32_t k = 0; points < 16 || (partly_sealed && k < places_of_a_center); ++k) {
     double p[4];
     low_discrepancy_point(key, k, p);
     // The first coordinate picks the surface and goes on within it.
@@ -75,14 +72,14 @@ void finish(const Forest& forest, const Exposure& exposure, Emitter& e) {
     double u, v;
     even_in_triangle(draw.rest(pick, p[0]), p[1], &u, &v);
     const Vec3 place = forest.root_triangle(root).at(u, v);
-    if (k < most_places && is_sealed(forest, exposure, root, place)) continue;
+    const Surface& surface = forest.surfaces[root];
+    if (k < most_places && exposure.sealed(surface.patch, surface.side, place)) continue;
     if (points < 16) e.point[points++] = place;
     if (k >= places_of_a_center) continue;
     sum_exposed = sum_exposed + place;
     ++exposed;
   }
-  e.even_center = sum_even * (1 / e.exposed_area);
-  e.exposed_center = exposed > 0 ? sum_exposed * (1.0 / exposed) : e.even_center;
+  if (partly_sealed && exposed > 0) e.exposed_center = sum_exposed * (1.0 / exposed);
 }
 
 }  // namespace

@@ -59,7 +59,6 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
   const Scene& scene = *state.forest.scene;
   const Surface& surface = state.forest.surfaces[root];
   const int bands = state.bands;
-  const bool can_be_sealed = tools.exposure.can_be_sealed(surface.patch, surface.side);
   const Element element = element_of(state.forest, state.forest.nodes[root]);
   const Draw& emitters = rays.emitters_near(element, space);
   double sum[2][most_bands] = {};
@@ -70,7 +69,7 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
       low_discrepancy_point(mix(key, half, 1), k, p);
       even_in_triangle(p[0], p[1], &u, &v);
       const Vec3 on = element.corners.at(u, v);
-      if (can_be_sealed && tools.exposure.sealed(surface.patch, surface.side, on)) continue;
+      if (tools.exposure.sealed(surface.patch, surface.side, on)) continue;
       r.rays += rays.sample(on + surface.normal * tools.engine.offset(), surface.normal,
                             mix(key, half, 2), k, cosine_rays_of_a_point, emitters, value);
       for (int b = 0; b < bands; ++b) sum[half][b] += value[b];

@@ -124,9 +124,8 @@ void Solver::query_points(Quantity quantity, int32_t side, int64_t count, const 
     if (side == 1) std::swap(u, v);
     double irradiance[most_bands] = {};
     const Vec3 point = state.forest.root_triangle(root).at(u, v);
-    const bool sealed = solution_->exposure->can_be_sealed(patch[k], side) &&
-                        solution_->exposure->sealed(patch[k], side, point);
-    if (!sealed) linear.at(state.forest.leaf_at(root, u, v), u, v, irradiance);
+    if (!solution_->exposure->sealed(patch[k], side, point))
+      linear.at(state.forest.leaf_at(root, u, v), u, v, irradiance);
     for (int b = 0; b < bands; ++b) {
       const size_t at = static_cast<size_t>(patch[k]) * bands + b;
       values[b] = value_of(quantity, scene_.emission[at], scene_.reflectance[at], irradiance[b]);

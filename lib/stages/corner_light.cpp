@@ -105,8 +105,7 @@ Vec3 CornerSampler::moved_inwards(int32_t surface, Vec3 on) const {
 
 bool CornerSampler::is_sealed(int32_t surface, Vec3 place) const {
   const Surface& s = state_.forest.surfaces[surface];
-  return tools_.exposure.can_be_sealed(s.patch, s.side) &&
-         tools_.exposure.sealed(s.patch, s.side, place);
+  return tools_.exposure.sealed(s.patch, s.side, place);
 }
 
 void CornerSampler::count_memory() {

@@ -36,7 +36,7 @@ std::vector<OrientedPoint> LeafLight::points_over(NodeId leaf, double large) con
     spread.point(static_cast<uint32_t>(k), p);
     even_in_triangle(p[0], p[1], &x, &y);
     const Vec3 place = corners.at(x, y);
-    if (!part.can_be_sealed() || !part.sealed(place)) points.push_back({place, surface.normal});
+    if (!part.sealed(place)) points.push_back({place, surface.normal});
   }
   return points;
 }

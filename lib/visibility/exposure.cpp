@@ -255,7 +255,8 @@ bool Exposure::enclosed(Vec3 origin, Vec3 normal) const {
 }
 
 bool Exposure::sealed(int64_t patch, int32_t side, Vec3 point) const {
-  return pressed(patch, side, point) || inside_solid(patch, side, point);
+  return can_be_sealed(patch, side) &&
+         (pressed(patch, side, point) || inside_solid(patch, side, point));
 }
 
 Exposure::Part::Part(const Exposure& exposure, int64_t patch, int32_t side, const Triangle& corners)

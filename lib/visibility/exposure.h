@@ -19,7 +19,7 @@ class Exposure {
   Exposure(const Scene& scene, const VisibilityEngine& engine);
   ~Exposure();
 
-  // False: no point of this side can be sealed, and sealed() need not be asked.
+  // False: no point of this side can be sealed.
   bool can_be_sealed(int64_t patch, int32_t side) const;
 
   // The point (in the scene's coordinates, on the patch) is sealed on this side. Any thread.
@@ -49,8 +49,7 @@ class Exposure {
   // The back of something lies flat on this point: a ray that ends here met that black back. Any
   // thread.
   bool under_a_back(int64_t patch, int32_t side, Vec3 point) const {
-    return can_be_sealed(patch, side) && sealed(patch, side, point) &&
-           !overlaid(patch, side, point);
+    return sealed(patch, side, point) && !overlaid(patch, side, point);
   }
   // The same by contact alone, solids left aside.
   bool pressed(int64_t patch, int32_t side, Vec3 point) const;
