@@ -21,7 +21,7 @@ class ProgressClock {
       : sink_(std::move(sink)), observer_(observer), start_(start) {}
 
   // From here on `name` is under way; expected and later as for TimeLeft.
-  void begin(const char* name, double expected, std::function<double(double)> later) {
+  void begin(const char* name, TimeLeft::Expected expected, std::function<double(double)> later) {
     name_ = name;
     if (observer_) observer_->stage_begins(name);
     stage_begin_ = seconds();

@@ -20,7 +20,10 @@ namespace {
 // To guess the time left: the rounds after linking and the sweeps after rows, in times of these;
 // how much longer each round takes than the one before; and what nobody knows.
 constexpr double rounds_of_linking = 1.5, sweeps_of_rows = 0.05, growth_of_rounds = 2.3;
-constexpr double unknown = -1;
+constexpr TimeLeft::Expected unknown{-1};
+// Large tasks come first and leave most of their work to later passes of a round, so that its pace
+// promises too much.
+constexpr double pace_of_rounds_tells_from = 1;
 
 // Names of stages in the journal's key; a round of refinement is its number.
 constexpr uint64_t stage_of_linking = 0, stage_of_measuring = uint64_t{1} << 32;
@@ -127,9 +130,12 @@ bool Solver::Run::link_by_rows() {
 
 bool Solver::Run::round() {
   const int number = solution_.rounds_done + 1;
-  clock_.begin("refine", growth_of_rounds * seconds_of_round_, [this, number](double seconds) {
-    return seconds_of_sweeps_ + of_later_rounds(number, seconds) + of_measuring();
-  });
+  const TimeLeft::Expected expected{growth_of_rounds * seconds_of_round_,
+                                    pace_of_rounds_tells_from};
+  clock_.begin("refine", seconds_of_round_ > 0 ? expected : unknown,
+               [this, number](double seconds) {
+                 return seconds_of_sweeps_ + of_later_rounds(number, seconds) + of_measuring();
+               });
   const auto start = std::chrono::steady_clock::now();
   // The last round tells best what surfaces cost; before the first one there are their links.
   if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
@@ -164,7 +170,7 @@ double Solver::Run::of_measuring() const {
 // broke it off.
 bool Solver::Run::sweep(int round) {
   const auto start = std::chrono::steady_clock::now();
-  clock_.begin("sweep", seconds_of_sweeps_, [this, round](double) {
+  clock_.begin("sweep", {seconds_of_sweeps_}, [this, round](double) {
     return of_later_rounds(round, seconds_of_round_) + of_measuring();
   });
   if (!solution_.sweeping) begin_sweeps(round);
@@ -190,7 +196,7 @@ bool Solver::Run::sweep(int round) {
 }
 
 bool Solver::Run::measure() {
-  clock_.begin("measure", of_measuring(), [](double) { return 0.0; });
+  clock_.begin("measure", {of_measuring()}, [](double) { return 0.0; });
   begin_journal(stage_of_measuring);
   if (!solution_.measure(tools(first_rounds), params_.accuracy, solver_.stats_)) return false;
   forget_journal();

@@ -9,8 +9,7 @@
 namespace hrad {
 namespace {
 
-// Below the first share the pace says nothing; from the second on it alone counts.
-constexpr double least_share = 0.01, telling_share = 0.2;
+constexpr double least_share = 0.01;  // below it the pace says nothing
 // The pace is the mean of those since these shares of the time: one is steady, one quick.
 struct Window {
   double since, weight;
@@ -19,7 +18,7 @@ constexpr std::array<Window, 2> windows = {{{1.0 / 8, 2.0 / 3}, {1.0 / 3, 1.0 / 
 
 }  // namespace
 
-void TimeLeft::begin_stage(double now, double expected, std::function<double(double)> later) {
+void TimeLeft::begin_stage(double now, Expected expected, std::function<double(double)> later) {
   begin_ = now;
   expected_ = expected;
   share_ = 0;
@@ -41,7 +40,8 @@ double TimeLeft::pace_since(double from, double elapsed) const {
 }
 
 double TimeLeft::left_of_stage(double elapsed) const {
-  const double by_expectation = expected_ < 0 ? -1 : std::max(0.0, expected_ - elapsed);
+  const double by_expectation =
+      expected_.seconds < 0 ? -1 : std::max(0.0, expected_.seconds - elapsed);
   if (share_ < least_share || !(elapsed > 0)) return by_expectation;
   double pace = 0;
   for (const Window& window : windows)
@@ -49,7 +49,7 @@ double TimeLeft::left_of_stage(double elapsed) const {
   if (!(pace > 0)) pace = share_ / elapsed;
   const double by_pace = (1 - share_) / pace;
   if (by_expectation < 0) return by_pace;
-  const double sure = std::min(1.0, share_ / telling_share);
+  const double sure = std::min(1.0, share_ / expected_.until);
   return sure * by_pace + (1 - sure) * by_expectation;
 }
 

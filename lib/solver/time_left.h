@@ -9,9 +9,14 @@ namespace hrad {
 
 class TimeLeft {
  public:
-  // expected: seconds that the stage may take, negative where nobody knows. later: of all that
-  // follows it, for what its own length is guessed to be.
-  void begin_stage(double now, double expected, std::function<double(double)> later);
+  // What is guessed before a stage begins: the seconds it may take, negative where nobody knows,
+  // and from which share on its pace alone tells more.
+  struct Expected {
+    double seconds, until = 0.2;
+  };
+
+  // later: seconds of all that follows the stage, for what its own length is guessed to be.
+  void begin_stage(double now, Expected expected, std::function<double(double)> later);
   // The share of the stage that is done; it never falls.
   void report(double now, double share);
   // Negative while unknown.
@@ -24,7 +29,8 @@ class TimeLeft {
   double pace_since(double from, double elapsed) const;
   double left_of_stage(double elapsed) const;
 
-  double begin_ = 0, expected_ = -1, share_ = 0;
+  double begin_ = 0, share_ = 0;
+  Expected expected_{-1};
   std::function<double(double)> later_ = [](double) { return 0.0; };
   std::vector<Mark> marks_{{0, 0}};  // of the stage, each later by a tenth than the one before
 };

@@ -23,8 +23,9 @@ namespace {
 constexpr int64_t most_links_of_a_task = 200;
 // Links of a partly sealed element, in links of others.
 constexpr int64_t work_of_partly_sealed = 8;
-// Of what a task stands for that hands on: its children take it, and hand on in their turn.
-constexpr double left_by_large_tasks = 0.8;
+// For a link, the work of a task that hands on, and what it leaves to all that come after it, in that
+// of a link of others.
+constexpr double work_of_handing_on = 0.06, left_by_handing_on = 0.45;
 
 struct Task {
   NodeId root;
@@ -79,6 +80,7 @@ class RefiningRound {
   std::vector<size_t> by_work();
   static bool hands_on(const Task& task) { return task.work > most_links_of_a_task; }
   static double work_of(const Task& task);
+  static double left_by(const Task& task);
   std::vector<double> work_in(const std::vector<size_t>& order) const;
   double share_of_pass() const;
   void store(std::vector<SubtreeResult> results);
@@ -147,10 +149,13 @@ std::vector<size_t> RefiningRound::by_work() {
   return order;
 }
 
-// What a task is of its pass, and what it leaves to later ones: a guess.
+// What a task is of its pass, and what it leaves to later ones: guesses.
 double RefiningRound::work_of(const Task& task) {
   const double work = static_cast<double>(1 + task.work);
-  return hands_on(task) ? (1 - left_by_large_tasks) * work : work;
+  return hands_on(task) ? work_of_handing_on * work : work;
+}
+double RefiningRound::left_by(const Task& task) {
+  return hands_on(task) ? left_by_handing_on * static_cast<double>(task.work) : 0;
 }
 
 // Of the work of all tasks the share of those before each in the order, and of all.
@@ -163,12 +168,12 @@ std::vector<double> RefiningRound::work_in(const std::vector<size_t>& order) con
 
 // Of the round.
 double RefiningRound::share_of_pass() const {
-  double here = 0, all = 0;
+  double here = 0, left = 0;
   for (const Task& task : tasks_) {
     here += work_of(task);
-    all += static_cast<double>(1 + task.work);
+    left += left_by(task);
   }
-  return (1 - share_) * here / all;
+  return (1 - share_) * here / (here + left);
 }
 
 // False: stopped.
