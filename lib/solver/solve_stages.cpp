@@ -19,7 +19,7 @@ namespace {
 
 // To guess the time left: the rounds after linking and the sweeps after rows, in times of these;
 // how much longer each round takes than the one before; and what nobody knows.
-constexpr double rounds_of_linking = 1.5, sweeps_of_rows = 0.05, growth_of_rounds = 2.3;
+constexpr double rounds_of_linking = 1.5, sweeps_of_rows = 0.05, growth_of_rounds = 2.6;
 constexpr TimeLeft::Expected unknown{-1};
 // Large tasks come first and leave most of their work to later passes of a round, so that its pace
 // promises too much.
