@@ -29,6 +29,14 @@ bool still_has_name(int file, const std::string& name) {
          here.st_dev == there.st_dev && here.st_ino == there.st_ino;
 }
 
+// 0: locked. It doesn't wait for another's lock.
+int error_of_locking(int file) {
+  int error = EINTR;
+  for (int attempt = 0; attempt < attempts && error == EINTR; ++attempt)
+    error = ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+  return error;
+}
+
 }  // namespace
 
 std::string FileLock::resolved(const std::string& path) {
@@ -57,18 +65,17 @@ FileLock::FileLock(const std::string& path) : name_(lock_name(path)) {
     if (file_ < 0)
       fail(Status::file, "%s: cannot create the lock %s: %s", path.c_str(), name_.c_str(),
            std::strerror(errno));
-    const int locked = ::flock(file_, LOCK_EX | LOCK_NB);
-    const int error = errno;
-    if (locked == 0 && still_has_name(file_, name_)) {
+    const int error = error_of_locking(file_);
+    if (error == 0 && still_has_name(file_, name_)) {
       // Whoever could still be at work on them would hold the lock.
       temporaries.remove_all();
       return;
     }
-    if (locked != 0 && has_no_locks(error)) return;
-    if (made && locked != 0 && error != EWOULDBLOCK && error != EINTR) ::unlink(name_.c_str());
+    if (has_no_locks(error)) return;
+    if (made && error != 0 && error != EWOULDBLOCK) ::unlink(name_.c_str());
     ::close(file_);
     file_ = -1;
-    if (locked == 0 || error == EINTR) continue;
+    if (error == 0) continue;
     if (error == EWOULDBLOCK)
       fail(Status::file, "%s: another process is at work on this checkpoint (it holds %s)",
            path.c_str(), name_.c_str());

@@ -2,7 +2,10 @@
  * HRAD_FAIL_CALL (from 1), or all from there on with HRAD_FAIL_EVER=1, with the error number in
  * HRAD_FAIL_ERRNO (0: a short write). Only calls on files in HRAD_FAIL_FOLDER count, and on this
  * folder. At its end the process writes into HRAD_FAIL_REPORT how many such calls there were and,
- * in the next line, which one was the first to fail: "fsync a file", "fsync the folder". */
+ * in the next line, which one was the first to fail: "fsync a file", "fsync the folder".
+ *
+ * Besides, calls of the name HRAD_FAIL_ALWAYS fail there, reading ones too, with the error number in
+ * HRAD_FAIL_ALWAYS_ERRNO; these are not counted. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -15,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum kind { of_no_interest, is_file, is_folder };
+enum kind { of_no_interest, is_file, is_folder, is_read };
 
 static int calls;
 static char watched[4096];
@@ -30,18 +33,24 @@ static int is_watched_path(const char* path) {
 static enum kind kind_of(const char* path, int flags) {
   if (!is_watched_path(path)) return of_no_interest;
   if (flags & O_DIRECTORY) return is_folder;
-  return (flags & O_ACCMODE) != O_RDONLY ? is_file : of_no_interest;
+  return (flags & O_ACCMODE) != O_RDONLY ? is_file : is_read;
 }
 
 static enum kind watched_kind(int file) {
   return file >= 0 && file < (int)sizeof watched ? (enum kind)watched[file] : of_no_interest;
 }
 
+static int always(const char* name) {
+  const char *wanted = getenv("HRAD_FAIL_ALWAYS"), *error = getenv("HRAD_FAIL_ALWAYS_ERRNO");
+  return wanted && error && strcmp(wanted, name) == 0 ? atoi(error) : 0;
+}
+
 /* Counts a call: 0: let it through; else the error, -1 for a short write. */
 static int failure(const char* name, enum kind kind) {
   const char *number = getenv("HRAD_FAIL_CALL"), *ever = getenv("HRAD_FAIL_EVER"),
              *error = getenv("HRAD_FAIL_ERRNO");
-  const int wanted = number ? atoi(number) : 0;
+  const int wanted = number ? atoi(number) : 0, known = always(name);
+  if (known) return known;
   ++calls;
   if (wanted == 0 || calls < wanted || (calls > wanted && !(ever && *ever == '1'))) return 0;
   if (!*first_failed)
@@ -66,7 +75,7 @@ int open(const char* path, int flags, ...) {
   va_start(arguments, flags);
   mode = flags & O_CREAT ? va_arg(arguments, int) : 0;
   va_end(arguments);
-  if (kind != of_no_interest) {
+  if (kind == is_file || kind == is_folder) {
     const int error = failure("open", kind);
     if (error > 0) {
       errno = error;
@@ -102,16 +111,35 @@ ssize_t pwrite(int file, const void* data, size_t size, off_t offset) {
   }
 }
 
+ssize_t read(int file, void* data, size_t size) {
+  const int error = watched_kind(file) == of_no_interest ? 0 : always("read");
+  if (error == 0) return NEXT(read)(file, data, size);
+  errno = error;
+  return -1;
+}
+
+ssize_t pread(int file, void* data, size_t size, off_t offset) {
+  const int error = watched_kind(file) == of_no_interest ? 0 : always("pread");
+  if (error == 0) return NEXT(pread)(file, data, size, offset);
+  errno = error;
+  return -1;
+}
+
+int fchmod(int file, mode_t mode) {
+  if (watched_kind(file) != is_file) return NEXT(fchmod)(file, mode);
+  { FAIL_OR("fchmod", is_file, NEXT(fchmod)(file, mode)); }
+}
+
 int fsync(int file) {
   const enum kind kind = watched_kind(file);
-  if (kind == of_no_interest) return NEXT(fsync)(file);
+  if (kind == of_no_interest || kind == is_read) return NEXT(fsync)(file);
   { FAIL_OR("fsync", kind, NEXT(fsync)(file)); }
 }
 
 int close(int file) {
   const enum kind kind = watched_kind(file);
   if (file >= 0 && file < (int)sizeof watched) watched[file] = 0;
-  if (kind == of_no_interest) return NEXT(close)(file);
+  if (kind == of_no_interest || kind == is_read) return NEXT(close)(file);
   {
     /* As the system does: the file is closed all the same. */
     const int error = failure("close", kind), closed = NEXT(close)(file);
