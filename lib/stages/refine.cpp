@@ -23,8 +23,8 @@ namespace {
 constexpr int64_t most_links_of_a_task = 200;
 // Links of a partly sealed element, in links of others.
 constexpr int64_t work_of_partly_sealed = 8;
-// For a link, the work of a task that hands on, and what it leaves to all that come after it, in that
-// of a link of others.
+// For a link, the work of a task that hands on, and what it leaves to all that come after it, in
+// that of a link of others.
 constexpr double work_of_handing_on = 0.06, left_by_handing_on = 0.45;
 
 struct Task {

@@ -5,6 +5,7 @@
 #include "solves.h"
 
 struct counting {
+  const char* stage;      /* the last one */
   int64_t calls, stop_at; /* stop_at < 0: never */
   double fraction, seconds;
   int wrong;
@@ -19,19 +20,27 @@ static int32_t count(const hrad_progress* progress, void* user) {
   counting->wrong |= !known || progress->struct_size != sizeof *progress ||
                      !(progress->fraction >= counting->fraction && progress->fraction <= 1) ||
                      !(progress->seconds >= counting->seconds) || progress->iteration < 0;
+  counting->stage = progress->stage;
   counting->fraction = progress->fraction;
   counting->seconds = progress->seconds;
   return ++counting->calls == counting->stop_at;
 }
 
 static void progress_is_told(void** state) {
-  struct counting counting = {0, -1, 0, 0, 0};
+  struct counting counting = {.stop_at = -1}, again = {.stop_at = -1};
   hrad_solver* solver = prepared("cornell", 0.1, 1);
   (void)state;
   assert_ok(hrad_set_progress(solver, count, &counting));
   assert_ok(hrad_solve(solver));
   assert_true(counting.calls > 0);
   assert_false(counting.wrong);
+  assert_string_equal(counting.stage, "measure");
+  /* Nothing is left to do. */
+  assert_ok(hrad_set_progress(solver, count, &again));
+  assert_ok(hrad_solve(solver));
+  assert_false(again.wrong);
+  assert_string_equal(again.stage, "initial");
+  assert_true(again.fraction == 1);
   assert_true(hash_of(solver) == cornell_hash(1));
   hrad_destroy(&solver);
 }
@@ -41,7 +50,7 @@ static void stopped_solves_go_on(void** state) {
   const uint64_t uninterrupted = cornell_hash(1);
   (void)state;
   for (int64_t stop_at = 1; stop_at <= 4; ++stop_at) {
-    struct counting counting = {0, stop_at, 0, 0, 0};
+    struct counting counting = {.stop_at = stop_at};
     hrad_solver* solver = prepared("cornell", 0.1, 2);
     hrad_status status;
     uint64_t ignored;

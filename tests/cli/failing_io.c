@@ -4,8 +4,8 @@
  * folder. At its end the process writes into HRAD_FAIL_REPORT how many such calls there were and,
  * in the next line, which one was the first to fail: "fsync a file", "fsync the folder".
  *
- * Besides, calls of the name HRAD_FAIL_ALWAYS fail there, reading ones too, with the error number in
- * HRAD_FAIL_ALWAYS_ERRNO; these are not counted. */
+ * Besides, calls of the name HRAD_FAIL_ALWAYS fail there, reading ones too, with the error number
+ * in HRAD_FAIL_ALWAYS_ERRNO; these are not counted. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
