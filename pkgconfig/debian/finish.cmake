@@ -50,4 +50,5 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
 ")
   run(gzip -9n ${documents}/changelog ${documents}/changelog.Debian)
+  run(chmod -R u=rwX,go=rX ${CPACK_TEMPORARY_DIRECTORY}/${component})  # whatever the umask
 endforeach()
