@@ -88,7 +88,7 @@ void pair_up(const EndPoints& r, const EndPoints& s, const int8_t of_source[16],
   SegmentPacket& packet = samples.packet;
   packet.active = all_pairs;
   for (int k = 0; k < 16; ++k) {
-    const int other = of_source[k];
+    const int other = static_cast<uint8_t>(of_source[k]);
     const float dx = s.x[other] - r.x[k], dy = s.y[other] - r.y[k], dz = s.z[other] - r.z[k];
     packet.ox[k] = r.x[k];
     packet.oy[k] = r.y[k];

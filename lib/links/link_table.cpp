@@ -37,7 +37,7 @@ int64_t LinkTable::bytes_of_links() const {
 
 int64_t LinkTable::bytes() const {
   return bytes_of_links() + static_cast<int64_t>(first_.capacity() * sizeof first_[0] +
-                                                 blocks_.capacity() * sizeof blocks_[0]);
+                                                 blocks_.capacity() * sizeof(std::vector<Link>));
 }
 
 void LinkTable::resize(size_t receivers) {

@@ -106,7 +106,7 @@ std::string mtl_path_of(const std::string& path) {
   const size_t begin = slash == std::string::npos ? 0 : slash + 1;
   const size_t dot = path.rfind('.');
   const bool has_ending = dot != std::string::npos && dot > begin;
-  const std::string mtl_path = path.substr(0, has_ending ? dot : path.size()) + ".mtl";
+  std::string mtl_path = path.substr(0, has_ending ? dot : path.size()) + ".mtl";
   if (mtl_path == path)
     fail(Status::argument, "%s: the materials would take this name", path.c_str());
   return mtl_path;
@@ -114,7 +114,7 @@ std::string mtl_path_of(const std::string& path) {
 
 // The name for the mtllib statement, which ends at a line's end or a comment.
 std::string library_name(const std::string& mtl_path) {
-  const std::string name = mtl_path.substr(mtl_path.rfind('/') + 1);
+  std::string name = mtl_path.substr(mtl_path.rfind('/') + 1);
   const bool readable = name.find_first_of("\n\r\t\v\f") == std::string::npos && name[0] != ' ' &&
                         name[0] != '#' && name.find(" #") == std::string::npos;
   if (!readable)
