@@ -35,8 +35,8 @@ run_tests() {
 test_without_options() {
   bash tests/configure.sh release build-plain -DHRAD_TESTS=ON -DHRAD_WERROR=ON -DHRAD_MPI=OFF \
     -DHRAD_FORTRAN=OFF -DHRAD_EMBREE=OFF -DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON
-  cmake --build build-plain --parallel "$(nproc)" --target hrad_cli hrad_man test_api_solve \
-    test_api_checkpoint test_physics_furnaces test_solver_ranks_few
+  cmake --build build-plain --parallel "$(nproc)" --target hrad_cli hrad_man hrad_shared \
+    test_api_solve test_api_checkpoint test_physics_furnaces test_solver_ranks_few
   ctest --test-dir build-plain --output-on-failure --no-tests=error -j2 --timeout 600 -R \
     '^(api_solve|api_checkpoint|physics_furnaces|solver_ranks_few|cli_usage|cli_query|cli_json|consumers_.*|style_style)$'
 }

@@ -128,12 +128,13 @@ void LinearField::keep_means(const std::vector<NodeId>& elements, const Mean& me
         for (int32_t corner : corner_[k])
           sum[static_cast<size_t>(corner) * bands_ + b] += share[k] * missing;
       }
-    for (size_t k = 0; k < value_.size(); ++k)
-      if (weight[k / bands_] > 0)
-        value_[k] = std::max(low[k] * (1 - beyond),
-                             std::min(high[k] * (1 + beyond),
-                                      static_cast<float>(value_[k] + freedom[k / bands_] * sum[k] /
-                                                                         weight[k / bands_])));
+    for (size_t corner = 0; corner < weight.size(); ++corner)
+      for (size_t b = 0; b < bands_ && weight[corner] > 0; ++b) {
+        const size_t at = corner * bands_ + b;
+        const double better = value_[at] + freedom[corner] * sum[at] / weight[corner];
+        value_[at] = std::max(low[at] * (1 - beyond),
+                              std::min(high[at] * (1 + beyond), static_cast<float>(better)));
+      }
     close_cracks(elements, index);
   }
 }
