@@ -71,7 +71,7 @@ class PushPull {
   void go(NodeId id, const double* from_above, double* sum, double* weight) {
     const Node& node = state_.forest.nodes[id];
     if (node.first_child < 0) {
-      double irradiance[room];
+      double irradiance[room] = {};
       const float* own = &state_.irradiance[at(id)];
       for (int b = 0; b < bands(); ++b)
         irradiance[b] = node.exposed > 0 ? from_above[b] + own[b] : 0;
@@ -170,17 +170,16 @@ float spread_below(const State& state, NodeId id, const std::vector<double>& uni
 std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, GatherSpace& space) {
   if (!exchange.alone() && space.blocks.empty()) space.blocks = own_blocks(state, exchange);
   gather(state, team, space);
-  const std::vector<double> transported = push_pull(state, team, exchange);
+  std::vector<double> transported = push_pull(state, team, exchange);
   exchange.update(state);
   return transported;
 }
 
 std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange) {
   push_to_roots(state);
-  const std::vector<double> transported = state.bands == 3 ? push_pull_all<3>(state, team, exchange)
-                                          : state.bands == 1
-                                              ? push_pull_all<1>(state, team, exchange)
-                                              : push_pull_all<0>(state, team, exchange);
+  std::vector<double> transported = state.bands == 3   ? push_pull_all<3>(state, team, exchange)
+                                    : state.bands == 1 ? push_pull_all<1>(state, team, exchange)
+                                                       : push_pull_all<0>(state, team, exchange);
   pull_to_clusters(state);
   return transported;
 }

@@ -41,8 +41,10 @@ class Rays {
   double mean_distance() const {
     return distances_ ? distance_ / static_cast<double>(distances_) : engine_.radius();
   }
-  double seconds_of_a_ray() const { return rays_ ? seconds_ / rays_ : 0; }
-  double back_share() const { return rays_ ? static_cast<double>(backs_) / rays_ : 0; }
+  double seconds_of_a_ray() const { return rays_ ? seconds_ / static_cast<double>(rays_) : 0; }
+  double back_share() const {
+    return rays_ ? static_cast<double>(backs_) / static_cast<double>(rays_) : 0;
+  }
 
  private:
   void shoot_from(int64_t patch, bool also_in_solids, uint64_t h) {
