@@ -13,7 +13,7 @@ optional=(libopenmpi-dev openmpi-bin)
 case "${1:-build}" in
   build) ;;
   tests | full)
-    packages+=(libcmocka-dev python3)
+    packages+=(libcmocka-dev make python3)
     # The second ray engine, against which the built-in one is checked; not on every architecture.
     optional+=(libembree-dev)
     # The module for Fortran programs.
