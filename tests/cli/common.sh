@@ -34,6 +34,17 @@ make_preload() {
 }
 make_failing_io() { make_preload "$HRAD_SOURCE_DIR/tests/cli/failing_io.c"; }
 
+# holds_checkpoints_alone FOLDER: c.hrad and c.hrad.prev at the most; nothing is left behind.
+holds_checkpoints_alone() {
+  local left
+  for left in "$1"/.[!.]* "$1"/*; do
+    case $left in
+      "$1/c.hrad" | "$1/c.hrad.prev" | "$1/.[!.]*") ;;
+      *) complain "$ran: left behind: $left" ;;
+    esac
+  done
+}
+
 # refuses CODE TEXT ARGUMENTS...: ends with the code, says the text on stderr and nothing on stdout.
 refuses() {
   local wanted=$1 text=$2

@@ -65,12 +65,7 @@ for error in 28 5 122 4 30 0; do
           ;;
         *) complain "$ran: exit code $code: $(cat err)" ;;
       esac
-      for left in "$here"/.[!.]* "$here"/*; do
-        case $left in
-          "$here/c.hrad" | "$here/c.hrad.prev" | "$here/.[!.]*") ;;
-          *) complain "$ran: left behind: $left" ;;
-        esac
-      done
+      holds_checkpoints_alone "$here"
     done
   done
 done

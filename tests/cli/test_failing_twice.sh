@@ -33,12 +33,7 @@ ends_with() {
   grep -qF "$2" err || complain "$ran: it is not said why: $(cat err)"
   cmp -s "$here/c.hrad" other.hrad || cmp -s "$here/c.hrad.prev" other.hrad ||
     complain "$ran: the old content is gone"
-  for left in "$here"/.[!.]* "$here"/*; do
-    case $left in
-      "$here/c.hrad" | "$here/c.hrad.prev" | "$here/.[!.]*") ;;
-      *) complain "$ran: left behind: $left" ;;
-    esac
-  done
+  holds_checkpoints_alone "$here"
 }
 
 failing link 1

@@ -42,13 +42,7 @@ attempt() {
       ;;
     *) complain "$ran: exit code $code: $(cat err)" ;;
   esac
-  local left
-  for left in "$here"/.[!.]* "$here"/*; do
-    case $left in
-      "$here/c.hrad" | "$here/c.hrad.prev" | "$here/.[!.]*") ;;
-      *) complain "$ran: left behind: $left" ;;
-    esac
-  done
+  holds_checkpoints_alone "$here"
 }
 
 attempt 1 0 0 5
