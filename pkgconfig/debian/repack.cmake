@@ -4,12 +4,7 @@ if(NOT CPACK_GENERATOR STREQUAL "DEB")
   return()
 endif()
 
-function(run)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_QUIET)
-  if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${ARGN}: ${result}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 foreach(package IN LISTS CPACK_PACKAGE_FILES)
   file(REMOVE_RECURSE ${package}.content)
