@@ -9,6 +9,7 @@
 #include "base/triangle_points.h"
 #include "links/element.h"
 #include "solver/ray_gather.h"
+#include "solver/residuals.h"
 #include "stages/exchange.h"
 
 namespace hrad {
@@ -30,29 +31,21 @@ int points_of_a_half(double accuracy) {
 
 // Until it is known better. Small errors are hard to tell from noise.
 double expected_batches(double accuracy) {
-  constexpr double accuracy_of_one = 0.04;
+  constexpr double accuracy_of_one = 0.025;
   return std::max(1.0, std::min<double>(most_batches, accuracy_of_one / accuracy));
 }
-
-// One drawn patch, all bands together, over the chance that it was drawn with.
-struct Residual {
-  int64_t rays = 0;
-  double square = 0;  // of the difference between solved and measured; noise may make it negative
-  double solved = 0;  // radiosity squared
-  double signed_sum = 0, solved_sum = 0;
-};
 
 bool take_residual(KnownResult& known, Residual& residual) {
   Residual r;
   if (!known.take(&r, 1) || !known.at_end() || !is_count(r.rays)) return false;
-  for (double value : {r.square, r.solved, r.signed_sum, r.solved_sum})
+  for (double value : r.difference)
+    if (!std::isfinite(value)) return false;
+  for (double value : {r.squares, r.solved, r.solved_sum})
     if (!std::isfinite(value)) return false;
   residual = r;
   return true;
 }
 
-// The patch is measured twice, independently: the product of the two differences has the square of
-// the true one as its mean, without a bias by noise.
 Residual residual_of(const State& state, const StageTools& tools, const RayGather& rays,
                      RayGather::NearEmitters& space, NodeId root, uint64_t key, int points,
                      bool reflected) {
@@ -80,11 +73,12 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
     const double factor = reflected ? scene.reflectance[at] : 1.0;
     const double solved =
         factor * exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
-    double difference[2];
-    for (int half = 0; half < 2; ++half) difference[half] = solved - factor * sum[half][b] / points;
-    r.square += difference[0] * difference[1];
+    for (const auto& of_half : sum) {
+      const double difference = solved - factor * of_half[b] / points;
+      r.difference[b] += difference;
+      r.squares += difference * difference;
+    }
     r.solved += solved * solved;
-    r.signed_sum += (difference[0] + difference[1]) / 2;
     r.solved_sum += solved;
   }
   return r;
@@ -141,37 +135,6 @@ Patches::Patches(const State& state) {
     weights.push_back(areas[k] * (squares > 0 ? square[k] * dark_area / squares + 1 : 1));
 }
 
-// What so many residuals tell.
-void evaluate(const std::vector<Residual>& residuals, double returned, ErrorEstimate& estimate) {
-  double square = 0, solved = 0, bias = 0, solved_sum = 0;
-  for (const Residual& r : residuals) {
-    square += r.square;
-    solved += r.solved;
-    bias += r.signed_sum;
-    solved_sum += r.solved_sum;
-  }
-  if (!(solved > 0)) return;
-  const double mean_square = square / solved, relative_bias = bias / solved_sum;
-  double spread_of_square = 0, spread_of_bias = 0;
-  for (const Residual& r : residuals) {
-    const double s = (r.square - mean_square * r.solved) / solved;
-    const double b = (r.signed_sum - relative_bias * r.solved_sum) / solved_sum;
-    spread_of_square += s * s;
-    spread_of_bias += b * b;
-  }
-  // The mean error is reflected on and on, the rest averages out at the next bounce. The square of
-  // a noisy mean is too large by its variance.
-  const double gain = 1 / ((1 - returned) * (1 - returned)) - 1;
-  const double bias_square = relative_bias * relative_bias - spread_of_bias;
-  const double variance = std::max(0.0, mean_square + gain * bias_square);
-  estimate.error = std::sqrt(variance);
-  const double error_of_square =
-      std::sqrt(spread_of_square + gain * gain * spread_of_bias *
-                                       (4 * relative_bias * relative_bias + 2 * spread_of_bias));
-  estimate.standard_error =
-      std::min(std::sqrt(error_of_square), error_of_square / (2 * std::max(estimate.error, 1e-12)));
-}
-
 }  // namespace
 
 double expected_rays_of_estimate(double accuracy) {
@@ -191,23 +154,24 @@ std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tool
   const int points = points_of_a_half(accuracy);
   std::vector<RayGather::NearEmitters> spaces(static_cast<size_t>(tools.team.size()));
   std::vector<Residual> residuals;
+  std::vector<DrawnPatch> drawn;
+  const auto key_of = [&](size_t number) { return mix(tools.oracle.seed, number, 0x6572726f72u); };
   double batches = expected_batches(accuracy);
   for (int batch = 0; batch < most_batches; ++batch) {
     const size_t before = residuals.size();
     residuals.resize(before + patches_of_a_batch);
     std::vector<size_t> own;  // of the batch
-    for (size_t k = 0; k < patches_of_a_batch; ++k)
+    for (size_t k = 0; k < patches_of_a_batch; ++k) {
       if (tools.exchange.my_turn(static_cast<int64_t>(k))) own.push_back(k);
+      const double step = static_cast<double>(k) + unit_interval(key_of(before + k));
+      const size_t patch = draw.pick(step / patches_of_a_batch);
+      drawn.push_back({patch, patches.areas[patch] / patches.weights[patch]});
+    }
     const auto measure = [&](size_t task, int worker) {
-      const size_t k = own[task], number = before + k;
-      const uint64_t h = mix(tools.oracle.seed, number, 0x6572726f72u);
-      const size_t pick =
-          draw.pick((static_cast<double>(k) + unit_interval(h)) / patches_of_a_batch);
-      Residual r = residual_of(state, tools, rays, spaces[static_cast<size_t>(worker)],
-                               patches.roots[pick], h, points, patches.reflected);
-      const double worth = patches.areas[pick] / patches.weights[pick];
-      for (double* value : {&r.square, &r.solved, &r.signed_sum, &r.solved_sum}) *value *= worth;
-      residuals[number] = r;
+      const size_t number = before + own[task];
+      residuals[number] = residual_of(state, tools, rays, spaces[static_cast<size_t>(worker)],
+                                      patches.roots[drawn[number].number], key_of(number), points,
+                                      patches.reflected);
     };
     const auto residual = [&](size_t task) -> Residual& { return residuals[before + own[task]]; };
     const bool going_on = state.journal.next_pass_of(
@@ -221,11 +185,14 @@ std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tool
         });
     if (!tools.exchange.all_go_on(going_on)) return std::nullopt;
     for (size_t k = before; k < residuals.size(); ++k) estimate.rays += residuals[k].rays;
-    std::vector<Residual> drawn(residuals.begin() + static_cast<std::ptrdiff_t>(before),
-                                residuals.end());
-    tools.exchange.share_turns(drawn);
-    std::copy(drawn.begin(), drawn.end(), residuals.begin() + static_cast<std::ptrdiff_t>(before));
-    evaluate(residuals, patches.returned, estimate);
+    std::vector<Residual> of_batch(residuals.begin() + static_cast<std::ptrdiff_t>(before),
+                                   residuals.end());
+    tools.exchange.share_turns(of_batch);
+    std::copy(of_batch.begin(), of_batch.end(),
+              residuals.begin() + static_cast<std::ptrdiff_t>(before));
+    const MeasuredError measured = error_of(drawn, residuals, patches.returned);
+    estimate.error = measured.error;
+    estimate.standard_error = measured.standard_error;
     const double wanted = std::max(precise_share * estimate.error, precise_enough * accuracy);
     if (estimate.standard_error < wanted) break;
     const double short_by = estimate.standard_error / wanted;
