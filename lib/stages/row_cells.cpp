@@ -10,6 +10,24 @@
 #include "stages/row_mesh.h"
 
 namespace hrad {
+namespace {
+
+// An edge over the root of the area of a cell, at the most: that of half a square has this. A pole
+// is narrow, and yet the light on it varies from end to end.
+constexpr double longest_edge = 2;
+// Levels of narrow patches for the sake of their length, as far as those add no more cells than
+// there are anyway, or so many.
+constexpr int most_levels_of_length = 3;
+constexpr double cells_of_length = 20000;
+
+double square_of_longest_edge(const Triangle& t) {
+  double largest = 0;
+  for (const Vec3& edge : {t.b - t.a, t.c - t.b, t.a - t.c})
+    largest = std::max(largest, dot(edge, edge));
+  return largest;
+}
+
+}  // namespace
 
 // Children of leaves, in the order of these; returns the first.
 NodeId RowMesh::add_children(const std::vector<NodeId>& parents) {
@@ -33,10 +51,38 @@ bool RowMesh::measure_exposure(NodeId from) {
   return hrad::measure_exposure(state_, tools_, partly);
 }
 
+bool RowMesh::is_too_long(const Node& node) const {
+  return square_of_longest_edge(forest_.triangle(node)) >
+         longest_edge * longest_edge * settings_.cell_area;
+}
+
+// Down to which narrow elements are divided because they are long.
+int RowMesh::levels_of_length() const {
+  double cells = 0, longer[most_levels_of_length] = {};  // by each level
+  for (NodeId root = 0; root < forest_.surface_count(); ++root) {
+    const double area = forest_.surfaces[root].area / settings_.cell_area;
+    cells += std::max(1.0, area);
+    const double square = square_of_longest_edge(forest_.root_triangle(root)) / settings_.cell_area;
+    double parts = 1;
+    for (double& added : longer) {
+      if (area <= parts && square > longest_edge * longest_edge * parts) added += 3 * parts;
+      parts *= 4;
+    }
+  }
+  int levels = 0;
+  double added = 0;
+  while (levels < most_levels_of_length &&
+         (added += longer[levels]) <= std::max(cells, cells_of_length))
+    ++levels;
+  return levels;
+}
+
 // Level by level.
 bool RowMesh::make_cells() {
+  const int levels = levels_of_length();
   const auto is_too_large = [&](const Node& node) {
-    return forest_.area(node) > settings_.cell_area && node.level < max_level;
+    return node.level < max_level &&
+           (forest_.area(node) > settings_.cell_area || (node.level < levels && is_too_long(node)));
   };
   size_t from = 0;
   while (from < forest_.nodes.size()) {

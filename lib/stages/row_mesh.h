@@ -41,6 +41,8 @@ class RowMesh {
   bool open_grid(const std::vector<NodeId>& cells);
   void guess_share(const std::vector<NodeId>& cells, const std::vector<OrientedPoint>& points);
   bool sample_corners();
+  bool is_too_long(const Node& node) const;
+  int levels_of_length() const;
   bool make_cells();
   bool keep_small_patches(std::vector<NodeId>& open);
   bool refine(std::vector<NodeId> open);

@@ -109,6 +109,10 @@ std::vector<int> rays_by_variance(const State& state, const StageTools& tools,
   return rays;
 }
 
+// Of the light that an enclosure would have: with less than this, as where lamps shine out of the
+// scene, tolerances follow what there is.
+constexpr double far_less = 0.5;
+
 // Sixteen rays err by an eighth at the most.
 constexpr double most_of_a_group = 8;
 
@@ -120,11 +124,42 @@ int RowSettings::rays_of(double area) const {
       static_cast<int>(std::ceil(rays_of_cell * std::sqrt(std::min(1.0, area / cell_area)))));
 }
 
-bool link_rows(State& state, const StageTools& tools, const RowSettings& settings) {
-  Emitters emitters(state.forest, tools.exposure, expected_brightness(state).of_node,
-                    settings.least_bright);
+namespace {
+
+enum class Outcome { done, stopped, too_dark };
+
+// The RMS of reflected light over what is expected, where nothing is emitted.
+double light_over_expected(const State& state, const Brightness& expected) {
+  const Scene& scene = *state.forest.scene;
+  double found = 0, wanted = 0;
+  for (NodeId root = 0; root < state.forest.surface_count(); ++root) {
+    const Surface& surface = state.forest.surfaces[root];
+    if (scene.emits(surface.patch)) continue;
+    for (int b = 0; b < state.bands; ++b) {
+      const double reflectance =
+          scene.reflectance[static_cast<size_t>(surface.patch) * state.bands + b];
+      const double light =
+          expected.unit[b] * state.radiosity[static_cast<size_t>(root) * state.bands + b];
+      found += surface.area * light * light;
+      wanted += surface.area * reflectance * reflectance;
+    }
+  }
+  return wanted > 0 ? std::sqrt(found / wanted) : 1;
+}
+
+// share: of the light of an enclosure, that is expected. Where pilot rows find far less of it, that
+// is what it gets to be, and the state is of no use until it is cleared.
+Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings& settings,
+                       double& share) {
+  const auto expect = [&] {
+    Brightness brightness = expected_brightness(state);
+    for (double& unit : brightness.unit) unit /= share;
+    for (float& value : brightness.of_node) value = static_cast<float>(value / share);
+    return brightness;
+  };
+  Emitters emitters(state.forest, tools.exposure, expect().of_node, settings.least_bright);
   emitters.join(state.forest, tools.exposure);
-  const Brightness expected = expected_brightness(state);
+  const Brightness expected = expect();
   LightGrid grid(emitters, tools.engine, settings.grid_size,
                  most_of_a_group * settings.shadow_noise);
   const double noise = settings.means_only ? settings.shadow_noise * std::sqrt(points_of_a_mean)
@@ -132,7 +167,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   const DirectLight light(state.forest, tools.engine, emitters, grid, noise);
   StageMemory memory(state);
   RowMesh mesh(state, tools, settings, light, grid, expected, memory);
-  if (!mesh.build()) return false;
+  if (!mesh.build()) return Outcome::stopped;
   pull_exposure(state.forest);
   const double meshed = mesh.share_of_work();
   const double piloted = meshed + pilot_work * (1 - meshed);
@@ -148,20 +183,47 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
     const double step = (piloted - meshed) / pilot_rounds, from = meshed + round * step;
     if (!trace_rows(state, tools.of_part(from, from + step), pilot, grid, cells,
                     rays_by_area(state, tools, pilot, cells), memory))
-      return false;
+      return Outcome::stopped;
     const Brightness seen = light_of_pilot_rows(state, tools);
+    if (round == 0 && share == 1) {
+      const double found = light_over_expected(state, expected);
+      if (found > 0 && found < far_less) {
+        share = found;
+        return Outcome::too_dark;
+      }
+    }
     rays = rays_by_variance(state, tools, settings, seen);
     if (round + 1 == pilot_rounds) break;
-    if (!mesh.divide_cells(seen, cells)) return false;
+    if (!mesh.divide_cells(seen, cells)) return Outcome::stopped;
     pull_exposure(state.forest);
   }
   if (!trace_rows(state, tools.of_part(piloted, 1), settings, grid, state.cells, rays, memory))
-    return false;
+    return Outcome::stopped;
   mesh.keep_what_is_named();
   reset_to_emission(state);
   shrink_to_fit(state);
   memory.settle();
-  return true;
+  return Outcome::done;
+}
+
+}  // namespace
+
+bool link_rows(State& state, const StageTools& tools, const RowSettings& settings) {
+  std::vector<float> exposed;
+  for (NodeId root = 0; root < state.forest.surface_count(); ++root)
+    exposed.push_back(state.forest.nodes[root].exposed);
+  double done = 0, share = 1;
+  StageTools first = tools;
+  first.progress = [&](double fraction) { return tools.progress(done = fraction); };
+  Outcome outcome = link_rows_once(state, first, settings, share);
+  if (outcome == Outcome::too_dark) {
+    clear(state);
+    tools.exchange.forget();
+    for (size_t root = 0; root < exposed.size(); ++root)
+      state.forest.nodes[root].exposed = exposed[root];
+    outcome = link_rows_once(state, tools.of_part(done, 1), settings, share);
+  }
+  return outcome == Outcome::done;
 }
 
 }  // namespace hrad

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/covers.h"
 #include "physics/ray_tree.h"
 
 namespace bench {
@@ -36,7 +37,8 @@ struct EmitterChoice {
 
 class PathTracer {
  public:
-  explicit PathTracer(std::vector<Surface> surfaces) : tree_(std::move(surfaces)) {
+  explicit PathTracer(std::vector<Surface> surfaces)
+      : tree_(std::move(surfaces)), covers_(tree_.surfaces()) {
     emitter_of_.assign(this->surfaces().size(), -1);
     for (size_t i = 0; i < this->surfaces().size(); ++i) {
       const Surface& s = this->surfaces()[i];
@@ -94,6 +96,8 @@ class PathTracer {
                {random.uniform(), random.uniform()}};
     }
   }
+
+  const Covers& covers() const { return covers_; }
 
   // No ray from the point meets a lit side: it lies inside a contact. Deep gaps are no contacts,
   // though paths may bring no light from them.
@@ -166,6 +170,7 @@ class PathTracer {
   }
 
   RayTree tree_;
+  Covers covers_;
   std::vector<Emitter> emitters_;
   std::vector<int64_t> emitter_of_;  // per surface, -1: dark
   mutable EmitterChoice scratch_;    // of the vertices after the first

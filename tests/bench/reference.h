@@ -190,7 +190,8 @@ class Sampler {
           tracer_.choose(at, n, choice);
         }
         const FirstDraws first = {{x[0], x[1]}, x[2], {x[3], x[4]}};
-        batch = batch + tracer_.irradiance(at, n, choice, first, random);
+        if (!tracer_.covers().covered(static_cast<size_t>(t.surface), t.side, at))
+          batch = batch + tracer_.irradiance(at, n, choice, first, random);
         for (size_t k = 0; k < x.size(); ++k) {
           x[k] += steps_[k];
           x[k] -= std::floor(x[k]);

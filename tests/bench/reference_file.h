@@ -22,7 +22,7 @@ struct ReferencePlace {
   uint64_t seed = 0;
 
   uint64_t key(const std::vector<Surface>& surfaces) const {
-    uint64_t key = Random::mixed(seed + 3);
+    uint64_t key = Random::mixed(seed + 5);
     const auto add = [&](double value) {
       uint64_t bits;
       std::memcpy(&bits, &value, sizeof bits);

@@ -72,7 +72,9 @@ inline SolutionError error_of(const std::vector<Spectrum>& solution, const Targe
       const bool lit = physics::sum(solution[i]) > 0;
       const Surface& s = surfaces[t.surface];
       const bool sealed_here =
-          t.is_dark() && tracer.sealed(s.at(t.u, t.v), t.side == 0 ? s.normal : s.normal * -1);
+          t.is_dark() &&
+          (tracer.covers().covered(static_cast<size_t>(t.surface), t.side, s.at(t.u, t.v)) ||
+           tracer.sealed(s.at(t.u, t.v), t.side == 0 ? s.normal : s.normal * -1));
       e.disagreeing += physics::sum(s.reflectance) > 0 && sealed_here == lit;
       if (sealed_here) {
         sealed += t.weight;

@@ -1,9 +1,8 @@
-// Requests and updates: an element's radiosity is asked for once, by who links to it, and told again
-// in every sweep without being asked.
-#include "stages/exchange.h"
-
+// Requests and updates: an element's radiosity is asked for once, by who links to it, and told
+// again in every sweep without being asked.
 #include <vector>
 
+#include "stages/exchange.h"
 #include "support/thread_ranks.h"
 #include "support/workbench.h"
 
@@ -58,11 +57,14 @@ void elements_are_asked_for_once() {
     for (int sweep = 0; sweep < 3; ++sweep) {
       for (NodeId k = 0; k < static_cast<NodeId>(state.forest.nodes.size()); ++k)
         if (exchange.mine(state.forest, k))
-          state.radiosity[static_cast<size_t>(k * state.bands)] = static_cast<float>(k + 1000 * sweep);
+          state.radiosity[static_cast<size_t>(k * state.bands)] =
+              static_cast<float>(k + 1000 * sweep);
       exchange.update(state);
     }
     counts[3][static_cast<size_t>(rank)] = exchange.counts();
-    const auto at = [&](NodeId id) { return state.radiosity[static_cast<size_t>(id * state.bands)]; };
+    const auto at = [&](NodeId id) {
+      return state.radiosity[static_cast<size_t>(id * state.bands)];
+    };
     bool right = true;
     for (NodeId id : {child(next, 0), child(next, 1), child(next, 3), child(last, 2)})
       right = right && at(id) == static_cast<float>(id + 2000);
@@ -79,8 +81,7 @@ void elements_are_asked_for_once() {
     // Updates go to two ranks in each of three sweeps: four elements of three bands.
     CHECK_EQUAL(counts[3][rank].messages[0], 3);
     CHECK_EQUAL(counts[3][rank].messages[1], 6);
-    CHECK_EQUAL(counts[3][rank].bytes[1],
-                int64_t{3} * 4 * 3 * static_cast<int64_t>(sizeof(float)));
+    CHECK_EQUAL(counts[3][rank].bytes[1], int64_t{3} * 4 * 3 * static_cast<int64_t>(sizeof(float)));
     CHECK(seen[rank] == 1.0f);
   }
 }

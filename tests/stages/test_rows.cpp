@@ -5,47 +5,13 @@
 #include "base/angle.h"
 #include "hierarchy/lattice.h"
 #include "stages/corner_light.h"
-#include "stages/rows.h"
-#include "support/workbench.h"
+#include "stages/rows_bench.h"
 #include "visibility/brute_force.h"
 
 namespace {
 
 using namespace hrad;
 using namespace hrad_test;
-
-struct Rows {
-  explicit Rows(Scene s, RowSettings given = {}) : bench(std::move(s)), settings(given) {
-    double area = 0;
-    for (const Surface& surface : bench.state.forest.surfaces) area += surface.area;
-    settings.cell_area = area / 500;
-    settings.least_cell_area = settings.cell_area / 256;
-    settings.min_area = settings.cell_area / 1024;
-    const LinkSampler sampler = bench.sampler();
-    for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
-  }
-  bool link() { return link_rows(bench.state, bench.tools({}), settings); }
-
-  // Weights of the rows of the cells above a leaf, and of its direct light.
-  double weight_of_leaf(NodeId leaf) const {
-    const State& state = bench.state;
-    double sum = 0;
-    for (NodeId id = leaf; id >= 0; id = state.forest.nodes[id].parent)
-      for (const Link& link : state.links[id].links()) sum += link.weight;
-    for (const Link& link : state.direct.mean[leaf].links()) sum += link.weight;
-    return sum;
-  }
-
-  Workbench bench;
-  RowSettings settings;
-};
-
-void set_light(Scene& scene, int64_t first, int64_t count, double emission, double reflectance) {
-  for (int64_t k = first * scene.bands; k < (first + count) * scene.bands; ++k) {
-    scene.emission[static_cast<size_t>(k)] = emission;
-    scene.reflectance[static_cast<size_t>(k)] = reflectance;
-  }
-}
 
 // A closed room with a box on the floor and a lamp under the ceiling.
 Scene room_with_lamp() {
