@@ -5,6 +5,7 @@
 
 #include "stages/rows.h"
 #include "support/workbench.h"
+#include "visibility/brute_force.h"
 
 namespace hrad_test {
 
@@ -42,6 +43,18 @@ inline void set_light(Scene& scene, int64_t first, int64_t count, double emissio
     scene.emission[static_cast<size_t>(k)] = emission;
     scene.reflectance[static_cast<size_t>(k)] = reflectance;
   }
+}
+
+// A closed room with a box on the floor and a lamp under the ceiling.
+inline Scene room_with_lamp() {
+  Scene scene;
+  add_box(scene, {0, 0, 0}, {4, 3, 2.5}, true);
+  add_box(scene, {1, 1, 0}, {1.6, 1.5, 0.8});
+  const int64_t lamp = scene.patch_count();
+  add_box(scene, {1.8, 1.3, 2.3}, {2.2, 1.7, 2.35});
+  set_light(scene, 0, scene.patch_count(), 0, 0.5);
+  set_light(scene, lamp, 2, 50, 0.5);
+  return scene;
 }
 
 }  // namespace hrad_test

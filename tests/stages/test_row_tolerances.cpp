@@ -112,13 +112,7 @@ int64_t leaves_of_room(const Rows& rows, int64_t patches) {
 // A lamp in a closed black box brings nothing, but a thousand times the power of the other one.
 void power_that_does_nothing_coarsens_nothing() {
   const auto room = [](bool with_hidden_lamp) {
-    Scene scene;
-    add_box(scene, {0, 0, 0}, {4, 3, 2.5}, true);
-    add_box(scene, {1, 1, 0}, {1.6, 1.5, 0.8});
-    const int64_t lamp = scene.patch_count();
-    add_box(scene, {1.8, 1.3, 2.3}, {2.2, 1.7, 2.35});
-    set_light(scene, 0, scene.patch_count(), 0, 0.5);
-    set_light(scene, lamp, 2, 50, 0.5);
+    Scene scene = room_with_lamp();
     if (with_hidden_lamp) {
       const int64_t box = scene.patch_count();
       add_box(scene, {5, 0, 0}, {6, 1, 1}, true);

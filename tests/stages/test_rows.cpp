@@ -13,18 +13,6 @@ namespace {
 using namespace hrad;
 using namespace hrad_test;
 
-// A closed room with a box on the floor and a lamp under the ceiling.
-Scene room_with_lamp() {
-  Scene scene;
-  add_box(scene, {0, 0, 0}, {4, 3, 2.5}, true);
-  add_box(scene, {1, 1, 0}, {1.6, 1.5, 0.8});
-  const int64_t lamp = scene.patch_count();
-  add_box(scene, {1.8, 1.3, 2.3}, {2.2, 1.7, 2.35});
-  set_light(scene, 0, scene.patch_count(), 0, 0.5);
-  set_light(scene, lamp, 2, 50, 0.5);
-  return scene;
-}
-
 // Where nothing is brighter than the rest a row of a closed scene sums to one, whatever is sealed.
 void rows_of_a_closed_scene_sum_to_one() {
   Scene scene = room_with_lamp();
