@@ -22,7 +22,7 @@ enum Fate : uint8_t { stays, is_divided, goes_on };
 // a patch, as most of these are left as they are; work on a point beside its shadow rays, and on a
 // ray of a row with all that follows from it, in shadow rays.
 constexpr double points_of_a_cell = 8, points_of_a_small_patch = 3.5;
-constexpr double work_of_a_point = 10, work_of_a_row_ray = 9;
+constexpr double work_of_a_point = 10, work_of_a_row_ray = 12;
 // Points of a level over those of the one before, at the most.
 constexpr double most_growth = 0.6;
 constexpr size_t most_looked_at = 4096;
