@@ -110,8 +110,9 @@ std::vector<int> rays_by_variance(const State& state, const StageTools& tools,
 }
 
 // Of the light that an enclosure would have: with less than this, as where lamps shine out of the
-// scene, tolerances follow what there is.
-constexpr double far_less = 0.5;
+// scene, tolerances follow what there is. But for no less than the least: black surfaces around a
+// lamp may have all the light, and need no mesh that is so fine.
+constexpr double far_less = 0.5, least_share = 1.0 / 64;
 
 // Sixteen rays err by an eighth at the most.
 constexpr double most_of_a_group = 8;
@@ -188,7 +189,7 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
     if (round == 0 && share == 1) {
       const double found = light_over_expected(state, expected);
       if (found > 0 && found < far_less) {
-        share = found;
+        share = std::max(found, least_share);
         return Outcome::too_dark;
       }
     }
