@@ -9,7 +9,6 @@
 #include "base/triangle_points.h"
 #include "links/element.h"
 #include "solver/ray_gather.h"
-#include "solver/residuals.h"
 #include "stages/exchange.h"
 
 namespace hrad {
@@ -190,9 +189,7 @@ std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tool
     tools.exchange.share_turns(of_batch);
     std::copy(of_batch.begin(), of_batch.end(),
               residuals.begin() + static_cast<std::ptrdiff_t>(before));
-    const MeasuredError measured = error_of(drawn, residuals, patches.returned);
-    estimate.error = measured.error;
-    estimate.standard_error = measured.standard_error;
+    static_cast<MeasuredError&>(estimate) = error_of(drawn, residuals, patches.returned);
     const double wanted = std::max(precise_share * estimate.error, precise_enough * accuracy);
     if (estimate.standard_error < wanted) break;
     const double short_by = estimate.standard_error / wanted;

@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "solver/residuals.h"
 #include "stages/state.h"
 
 namespace hrad {
 
-struct ErrorEstimate {
-  double error = -1;  // by the definition of the accuracy; negative: there is no light to measure
-  double standard_error = 0;
+// By the definition of the accuracy.
+struct ErrorEstimate : MeasuredError {
   int64_t rays = 0;
 };
 

@@ -23,8 +23,10 @@ struct DrawnPatch {
   double worth;   // one over the chance that it was drawn with
 };
 
+// RMS over the area, relative.
 struct MeasuredError {
-  double error = -1, standard_error = 0;  // relative, RMS over area; negative: nothing is lit
+  double error = -1;  // negative: there is no light to measure
+  double standard_error = 0;
 };
 
 // The error of which so many patches have shown so much; some may have been drawn many times, by

@@ -1,4 +1,5 @@
-// The order of the steps: mesh by direct light, cells by pilot rows, final rows. Floor 7 (stages).
+// The order of the steps: mesh by direct light, cells by pilot rows, final rows; once more from the
+// beginning where pilot rows find far less light than was expected. Floor 7 (stages).
 #include "stages/rows.h"
 
 #include <algorithm>
@@ -117,16 +118,6 @@ constexpr double far_less = 0.5, least_share = 1.0 / 64;
 // Sixteen rays err by an eighth at the most.
 constexpr double most_of_a_group = 8;
 
-}  // namespace
-
-int RowSettings::rays_of(double area) const {
-  return std::max(
-      least_rays,
-      static_cast<int>(std::ceil(rays_of_cell * std::sqrt(std::min(1.0, area / cell_area)))));
-}
-
-namespace {
-
 enum class Outcome { done, stopped, too_dark };
 
 // The RMS of reflected light over what is expected, where nothing is emitted.
@@ -208,6 +199,12 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
 }
 
 }  // namespace
+
+int RowSettings::rays_of(double area) const {
+  return std::max(
+      least_rays,
+      static_cast<int>(std::ceil(rays_of_cell * std::sqrt(std::min(1.0, area / cell_area)))));
+}
 
 bool link_rows(State& state, const StageTools& tools, const RowSettings& settings) {
   std::vector<float> exposed;
