@@ -22,6 +22,9 @@ constexpr double near_radii = 2;
 constexpr double quadratic_radii = 8, point_radii = 30;
 // Variance of what one ray says: at the most, and where some thirty pilot rays met nothing.
 constexpr double variance_at_most = 0.25, variance_if_hidden = 1.0 / 32;
+// Sixteen rays that are spread evenly do for so many times as many by chance, where few points lie
+// in a penumbra.
+constexpr double gain_of_evenness = 16;
 
 // cos cos / distance^2, 0 behind a horizon.
 double kernel(Vec3 x, Vec3 normal, Vec3 y, Vec3 normal_y) {
@@ -59,6 +62,32 @@ struct DirectLight::Batch {
     int first, rays;
     double factor;  // of a group: without occlusion
   };
+
+  void aim(const VisibilityEngine& engine, const OrientedPoint& from, const OrientedPoint& to,
+           double weight_of_ray) {
+    weight[used] = weight_of_ray;
+    packet.set(used, from.place + from.normal * engine.offset() - engine.center(),
+               to.place + (to.normal * engine.offset() - engine.center()));
+    if (weight_of_ray > 0) packet.active |= 1u << used;
+    ++used;
+  }
+  // Towards one of an emitter's points.
+  void aim_at(const VisibilityEngine& engine, const OrientedPoint& from, const Emitter& e,
+              size_t k) {
+    const Vec3 y = e.point(k);
+    aim(engine, from, {y, e.normal}, kernel(from.place, from.normal, y, e.normal));
+  }
+  // Which rays nothing stops.
+  uint32_t trace(const VisibilityEngine& engine) {
+    for (int k = used; k < 16; ++k) packet.set(k, Vec3{0, 0, 0}, Vec3{1, 0, 0});
+    rays += __builtin_popcount(packet.active);
+    return packet.active & ~engine.blocked(packet);
+  }
+  void clear() {
+    packet.active = 0;
+    part_count = used = 0;
+  }
+
   SegmentPacket packet;
   double weight[16];
   std::vector<double> up_to;  // of a group: the sum of form factors up to each member
@@ -103,31 +132,29 @@ int64_t DirectLight::rays_at(const OrientedPoint& point) const {
   return rays;
 }
 
+// By chance, for the visible share of so much light.
+double DirectLight::rays_for(double light, double variance) const {
+  return light * light * variance / (noise_ * noise_);
+}
+
 // 1, 4 or 16, none where the emitter isn't worth sampling.
 int DirectLight::rays_wanted(const Emitter& e, bool hidden, Vec3 x, Vec3 normal) const {
   const double factor = Emitters::rough_factor(e, x, normal);
   if (!emitters_.is_sampled(e, factor)) return 0;
   // Partly below the horizon, few points may miss all of it. Those of a group never do.
   if (e.members.empty() && dot(e.center - x, normal) < e.radius) return 16;
-  const double light = e.brightness * factor;
-  const double variance = hidden ? variance_if_hidden : variance_at_most;
-  const double wanted = light * light * variance / (noise_ * noise_);
+  const double wanted =
+      rays_for(e.brightness * factor, hidden ? variance_if_hidden : variance_at_most);
   return wanted > 4 ? 16 : wanted > 1 ? 4 : 1;
 }
 
 void DirectLight::add(const Emitter& e, int rays, uint64_t key, const OrientedPoint& point,
                       Batch& batch) const {
-  const Vec3 from = point.place + point.normal * engine_.offset() - engine_.center();
-  const Vec3 to_packet = e.normal * engine_.offset() - engine_.center();
   batch.parts[batch.part_count++] = {&e, batch.used, rays, 0};
   // All sixteen points, or some of them that are spread evenly, other ones for every receiver.
   const size_t turn = rays == 16 ? 0 : key % 16;
-  for (int k = 0; k < rays; ++k, ++batch.used) {
-    const Vec3 y = e.point[(turn + static_cast<size_t>(k * (16 / rays))) % 16];
-    batch.weight[batch.used] = kernel(point.place, point.normal, y, e.normal);
-    batch.packet.set(batch.used, from, y + to_packet);
-    if (batch.weight[batch.used] > 0) batch.packet.active |= 1u << batch.used;
-  }
+  for (int k = 0; k < rays; ++k)
+    batch.aim_at(engine_, point, e, (turn + static_cast<size_t>(k * (16 / rays))) % 16);
 }
 
 // Rays in proportion to what the members would bring without occlusion, so that the visible share
@@ -142,39 +169,32 @@ void DirectLight::add_group(const Emitter& group, int rays, uint64_t key,
     batch.up_to.push_back(all);
   }
   if (!(all > 0)) return;
-  const Vec3 from = point.place + point.normal * engine_.offset() - engine_.center();
   const double start = unit_interval(mix(key, 0x67726f7570u));
   const int first = batch.used;
   size_t turn = key % 16;
   for (size_t m = 0; m < group.members.size(); ++m) {
     const Emitter& e = emitters_.all()[group.members[m]];
     for (; batch.used - first < rays && (start + batch.used - first) / rays * all < batch.up_to[m];
-         ++batch.used, ++turn) {
-      batch.weight[batch.used] = 1;
-      batch.packet.set(batch.used, from,
-                       e.point[turn % 16] + e.normal * engine_.offset() - engine_.center());
-      batch.packet.active |= 1u << batch.used;
-    }
+         ++turn)
+      batch.aim(engine_, point, {e.point(turn % 16), e.normal}, 1);
   }
   batch.parts[batch.part_count++] = {&group, first, batch.used - first, all};
 }
 
 void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<Link>& links) const {
   if (batch.used == 0) return;
-  for (int k = batch.used; k < 16; ++k) batch.packet.set(k, Vec3{0, 0, 0}, Vec3{1, 0, 0});
-  batch.rays += __builtin_popcount(batch.packet.active);
-  const uint32_t seen = batch.packet.active & ~engine_.blocked(batch.packet);
+  const uint32_t seen = batch.trace(engine_);
   for (int p = 0; p < batch.part_count; ++p) {
     const Batch::Part& part = batch.parts[p];
-    double all = 0, visible = 0;
-    for (int k = part.first; k < part.first + part.rays; ++k) {
-      all += batch.weight[k];
-      if (seen >> k & 1) visible += batch.weight[k];
-    }
-    // A strip above the horizon that all points miss is taken for visible.
-    if (all > 0 && !(visible > 0)) continue;
-    const double share = all > 0 ? visible / all : 1;
     const Emitter& e = *part.emitter;
+    Weights sum;
+    for (int k = part.first; k < part.first + part.rays; ++k)
+      sum.add(batch.weight[k], seen >> k & 1);
+    // A strip above the horizon that all points miss is taken for visible.
+    if (sum.all > 0 && !(sum.visible > 0)) continue;
+    if (part.rays == 16 && e.members.empty() && sum.visible < sum.all)
+      batch.rays += look_closer(e, point, sum);
+    const double share = sum.all > 0 ? sum.visible / sum.all : 1;
     const Vec3 way = e.center - point.place;
     const double radii = length(way) / e.radius;
     const bool above_horizon = dot(way, point.normal) > e.radius;
@@ -192,8 +212,28 @@ void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<L
         links.push_back({root, static_cast<float>(factor * e.exposed[k] * gain * share)});
     }
   }
-  batch.packet.active = 0;
-  batch.part_count = batch.used = 0;
+  batch.clear();
+}
+
+// Sixteen rays leave steps in the penumbra of a strong emitter: 16, 32 or 64.
+size_t DirectLight::rays_of_penumbra(double light) const {
+  const double wanted = rays_for(light, variance_at_most) / gain_of_evenness;
+  return wanted > 64 ? Emitter::point_count : wanted > 16 ? 32 : 16;
+}
+
+// After sixteen rays; returns the number of those that are added.
+int64_t DirectLight::look_closer(const Emitter& e, const OrientedPoint& point, Weights& sum) const {
+  const double factor = Emitters::rough_factor(e, point.place, point.normal);
+  const size_t most = rays_of_penumbra(e.brightness * factor);
+  int64_t rays = 0;
+  for (size_t first = 16; first < most; first += 16) {
+    Batch batch;
+    for (size_t k = first; k < first + 16; ++k) batch.aim_at(engine_, point, e, k);
+    const uint32_t seen = batch.trace(engine_);
+    for (int k = 0; k < 16; ++k) sum.add(batch.weight[k], seen >> k & 1);
+    rays += batch.rays;
+  }
+  return rays;
 }
 
 int64_t DirectLight::sample_near(NodeId root, const OrientedPoint& point, uint64_t key,
@@ -205,32 +245,31 @@ int64_t DirectLight::sample_near(NodeId root, const OrientedPoint& point, uint64
   if (!(factor > 0)) return 0;
   KernelParts parts;
   parts.divide(x, normal, element);
-  SegmentPacket packet;
-  const Vec3 from = x + normal * engine_.offset() - engine_.center();
-  const Vec3 to_packet = element.normal * engine_.offset() - engine_.center();
-  double weight[16], sum = 0;
-  for (int k = 0; k < 16; ++k) {
-    double p[4];
-    low_discrepancy_point(key, static_cast<uint32_t>(k), p);
-    const KernelPart& part = parts.at(p[0]);
-    float u, v;
-    point_in_place(part.place, p[1], p[2], &u, &v);
-    const Vec3 y = corners.at(u, v);
-    // Drawn in proportion to the part's weight over its area.
-    weight[k] = kernel(x, normal, y, element.normal) * part.area / part.weight;
-    sum += weight[k];
-    packet.set(k, from, y + to_packet);
-    if (weight[k] > 0) packet.active |= 1u << k;
+  const Emitter& emitter = emitters_.all()[emitters_.of_node(root)];
+  const size_t most = rays_of_penumbra(emitter.brightness * factor);
+  Weights sum;
+  int64_t rays = 0;
+  for (size_t first = 0; first < most; first += 16) {
+    Batch batch;
+    for (size_t k = first; k < first + 16; ++k) {
+      double p[4];
+      low_discrepancy_point(key, static_cast<uint32_t>(k), p);
+      const KernelPart& part = parts.at(p[0]);
+      float u, v;
+      point_in_place(part.place, p[1], p[2], &u, &v);
+      const Vec3 y = corners.at(u, v);
+      // Drawn in proportion to the part's weight over its area.
+      batch.aim(engine_, point, {y, element.normal},
+                kernel(x, normal, y, element.normal) * part.area / part.weight);
+    }
+    const uint32_t seen = batch.trace(engine_);
+    for (int k = 0; k < 16; ++k) sum.add(batch.weight[k], seen >> k & 1);
+    rays += batch.rays;
+    if (!(sum.visible > 0) || !(sum.visible < sum.all)) break;
   }
-  double seen = sum > 0 ? 0 : 1;
-  if (sum > 0) {
-    const uint32_t blocked = engine_.blocked(packet);
-    for (int k = 0; k < 16; ++k)
-      if (!(blocked >> k & 1)) seen += weight[k];
-    seen /= sum;
-  }
+  const double seen = sum.all > 0 ? sum.visible / sum.all : 1;
   if (seen > 0) links.push_back({root, static_cast<float>(factor * seen)});
-  return __builtin_popcount(packet.active);
+  return rays;
 }
 
 }  // namespace hrad

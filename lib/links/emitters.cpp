@@ -34,7 +34,7 @@ bool share_an_edge(const Triangle& a, const Triangle& b) {
   return common >= 2;
 }
 
-// Places that are looked at for the middle of what is exposed, and in all to find sixteen that are:
+// Places that are looked at for the middle of what is exposed, and in all to find points that are:
 // nearly all may be sealed.
 constexpr uint32_t places_of_a_center = 64, most_places = 4096;
 
@@ -62,8 +62,10 @@ void finish(const Forest& forest, const Exposure& exposure, Emitter& e) {
   const uint64_t key = mix(static_cast<uint64_t>(first.patch), static_cast<uint64_t>(first.side));
   const Draw draw(areas);
   Vec3 sum_exposed{0, 0, 0};
-  int exposed = 0, points = 0;
-  for (uint32_t k = 0; points < 16 || (partly_sealed && k < places_of_a_center); ++k) {
+  int exposed = 0;
+  size_t points = 0;
+  for (uint32_t k = 0; points < Emitter::point_count || (partly_sealed && k < places_of_a_center);
+       ++k) {
     double p[4];
     low_discrepancy_point(key, k, p);
     // The first coordinate picks the surface and goes on within it.
@@ -74,7 +76,11 @@ void finish(const Forest& forest, const Exposure& exposure, Emitter& e) {
     const Vec3 place = forest.root_triangle(root).at(u, v);
     const Surface& surface = forest.surfaces[root];
     if (k < most_places && exposure.sealed(surface.patch, surface.side, place)) continue;
-    if (points < 16) e.point[points++] = place;
+    if (points < Emitter::point_count) {
+      const Vec3 way = place - e.center;
+      e.from_center[points++] = {static_cast<float>(way.x), static_cast<float>(way.y),
+                                 static_cast<float>(way.z)};
+    }
     if (k >= places_of_a_center) continue;
     sum_exposed = sum_exposed + place;
     ++exposed;

@@ -3,6 +3,7 @@
 // emitter seen from afar. Floor 6 (links).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,8 +23,13 @@ struct Emitter {
   // The middle of what is exposed, and what it would be if that were spread evenly over each
   // surface.
   Vec3 exposed_center, even_center;
-  // Sixteen points spread over its exposed part by area.
-  Vec3 point[16];
+  // Points spread over its exposed part by area, as each sixteen in a row are.
+  static constexpr size_t point_count = 64;
+  Vec3 point(size_t k) const {
+    return {center.x + from_center[k][0], center.y + from_center[k][1],
+            center.z + from_center[k][2]};
+  }
+  std::array<std::array<float, 3>, point_count> from_center;
   // Of a group: its cluster, the source of its links, and the numbers of the emitters in it.
   NodeId cluster = -1;
   std::vector<int32_t> members;

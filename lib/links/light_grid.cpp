@@ -217,7 +217,7 @@ bool LightGrid::hidden(const Emitter& emitter, const std::vector<OrientedPoint>&
                                         : turn % count]];
       const Vec3 from = p.place + p.normal * engine_.offset();
       // Another point of the emitter each time round.
-      const Vec3 y = emitter.point[(k + 5 * static_cast<size_t>(pass)) % 16];
+      const Vec3 y = emitter.point((k + 5 * static_cast<size_t>(pass)) % 16);
       packet.set(static_cast<int>(k), from - engine_.center(),
                  y + emitter.normal * engine_.offset() - engine_.center());
       const Vec3 d = y - p.place;

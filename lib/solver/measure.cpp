@@ -16,8 +16,10 @@ namespace {
 
 // Patches are drawn batch by batch until the error is known to this share of itself, or is
 // known to be far below the accuracy.
-constexpr int64_t patches_of_a_batch = 512;
+constexpr size_t patches_of_a_batch = 512;
 constexpr int most_batches = 4;
+// Of a batch, each spread over all patches: after every one something is known.
+constexpr size_t parts_of_a_batch = 4;
 constexpr double precise_share = 0.35, precise_enough = 0.2;
 // Of each half of a patch; a point has one packet of shadow rays besides.
 constexpr int cosine_rays_of_a_point = 4;
@@ -134,6 +136,20 @@ Patches::Patches(const State& state) {
     weights.push_back(areas[k] * (squares > 0 ? square[k] * dark_area / squares + 1 : 1));
 }
 
+// By the first parts of the first batch.
+MeasuredError error_of_parts(const std::vector<DrawnPatch>& drawn,
+                             const std::vector<Residual>& residuals, size_t parts,
+                             double returned) {
+  std::vector<DrawnPatch> some;
+  std::vector<Residual> of_some;
+  for (size_t k = 0; k < patches_of_a_batch; ++k) {
+    if (k % parts_of_a_batch >= parts) continue;
+    some.push_back(drawn[k]);
+    of_some.push_back(residuals[k]);
+  }
+  return error_of(some, of_some, returned);
+}
+
 }  // namespace
 
 double expected_rays_of_estimate(double accuracy) {
@@ -143,8 +159,9 @@ double expected_rays_of_estimate(double accuracy) {
          rays_of_a_point;
 }
 
-std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tools,
-                                            double accuracy) {
+std::optional<ErrorEstimate> estimate_error(
+    State& state, const StageTools& tools, double accuracy,
+    const std::function<void(const MeasuredError&)>& so_far) {
   ErrorEstimate estimate;
   const Patches patches(state);
   if (patches.roots.empty()) return estimate;
@@ -155,41 +172,52 @@ std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tool
   std::vector<Residual> residuals;
   std::vector<DrawnPatch> drawn;
   const auto key_of = [&](size_t number) { return mix(tools.oracle.seed, number, 0x6572726f72u); };
-  double batches = expected_batches(accuracy);
-  for (int batch = 0; batch < most_batches; ++batch) {
-    const size_t before = residuals.size();
-    residuals.resize(before + patches_of_a_batch);
-    std::vector<size_t> own;  // of the batch
-    for (size_t k = 0; k < patches_of_a_batch; ++k) {
+  const auto number_of = [](size_t part, size_t k) { return part + parts_of_a_batch * k; };
+  double done = 0, batches = expected_batches(accuracy);
+  // The patches of a part of the batch that begins with number `first`; false: stopped.
+  const auto measure_part = [&](size_t first, size_t part) {
+    constexpr size_t count = patches_of_a_batch / parts_of_a_batch;
+    std::vector<Residual> measured(count);
+    std::vector<size_t> own;
+    for (size_t k = 0; k < count; ++k)
       if (tools.exchange.my_turn(static_cast<int64_t>(k))) own.push_back(k);
-      const double step = static_cast<double>(k) + unit_interval(key_of(before + k));
+    const auto measure = [&](size_t task, int worker) {
+      const size_t number = first + number_of(part, own[task]);
+      measured[own[task]] = residual_of(state, tools, rays, spaces[static_cast<size_t>(worker)],
+                                        patches.roots[drawn[number].number], key_of(number), points,
+                                        patches.reflected);
+    };
+    const bool going_on = state.journal.next_pass_of(
+        tools.team, own.size(),
+        {[&](size_t task) { return static_cast<uint64_t>(number_of(part, own[task])); },
+         [&](size_t task, KnownResult& known) { return take_residual(known, measured[own[task]]); },
+         measure, [&](size_t task, Bytes& bytes) { put(bytes, &measured[own[task]], 1); }},
+        [&](int64_t tasks) {
+          const double of_part = static_cast<double>(tasks) / static_cast<double>(own.size());
+          return tools.progress((done + of_part / parts_of_a_batch) / batches);
+        });
+    if (!tools.exchange.all_go_on(going_on)) return false;
+    for (const Residual& r : measured) estimate.rays += r.rays;
+    tools.exchange.share_turns(measured);
+    for (size_t k = 0; k < count; ++k) residuals[first + number_of(part, k)] = measured[k];
+    return true;
+  };
+  for (int batch = 0; batch < most_batches; ++batch) {
+    const size_t first = residuals.size();
+    residuals.resize(first + patches_of_a_batch);
+    for (size_t k = 0; k < patches_of_a_batch; ++k) {
+      const double step = static_cast<double>(k) + unit_interval(key_of(first + k));
       const size_t patch = draw.pick(step / patches_of_a_batch);
       drawn.push_back({patch, patches.areas[patch] / patches.weights[patch]});
     }
-    const auto measure = [&](size_t task, int worker) {
-      const size_t number = before + own[task];
-      residuals[number] = residual_of(state, tools, rays, spaces[static_cast<size_t>(worker)],
-                                      patches.roots[drawn[number].number], key_of(number), points,
-                                      patches.reflected);
-    };
-    const auto residual = [&](size_t task) -> Residual& { return residuals[before + own[task]]; };
-    const bool going_on = state.journal.next_pass_of(
-        tools.team, own.size(),
-        {[&](size_t task) { return static_cast<uint64_t>(own[task]); },
-         [&](size_t task, KnownResult& known) { return take_residual(known, residual(task)); },
-         measure, [&](size_t task, Bytes& bytes) { put(bytes, &residual(task), 1); }},
-        [&](int64_t done) {
-          return tools.progress(
-              (batch + static_cast<double>(done) / static_cast<double>(own.size())) / batches);
-        });
-    if (!tools.exchange.all_go_on(going_on)) return std::nullopt;
-    for (size_t k = before; k < residuals.size(); ++k) estimate.rays += residuals[k].rays;
-    std::vector<Residual> of_batch(residuals.begin() + static_cast<std::ptrdiff_t>(before),
-                                   residuals.end());
-    tools.exchange.share_turns(of_batch);
-    std::copy(of_batch.begin(), of_batch.end(),
-              residuals.begin() + static_cast<std::ptrdiff_t>(before));
+    for (size_t part = 0; part < parts_of_a_batch; ++part) {
+      if (!measure_part(first, part)) return std::nullopt;
+      done += 1.0 / parts_of_a_batch;
+      if (so_far && batch == 0)
+        so_far(error_of_parts(drawn, residuals, part + 1, patches.returned));
+    }
     static_cast<MeasuredError&>(estimate) = error_of(drawn, residuals, patches.returned);
+    if (so_far) so_far(estimate);
     const double wanted = std::max(precise_share * estimate.error, precise_enough * accuracy);
     if (estimate.standard_error < wanted) break;
     const double short_by = estimate.standard_error / wanted;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,8 +19,11 @@ struct ErrorEstimate : MeasuredError {
 
 // Irradiance by rays against the solution's own on patches drawn by area. What is measured is the
 // residual of one bounce, of several where much is reflected; its mean is carried on through all
-// further bounces. What each patch has shown is kept in the journal. Nothing: stopped.
-std::optional<ErrorEstimate> estimate_error(State& state, const StageTools& tools, double accuracy);
+// further bounces. What each patch has shown is kept in the journal. so_far: told now and then what
+// is known already, may be empty. Nothing: stopped.
+std::optional<ErrorEstimate> estimate_error(
+    State& state, const StageTools& tools, double accuracy,
+    const std::function<void(const MeasuredError&)>& so_far = {});
 // For how many rays, of those that go alone, it may go on, before anything is known of the error.
 double expected_rays_of_estimate(double accuracy);
 

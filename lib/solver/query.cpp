@@ -48,11 +48,12 @@ const Reconstruction& Solver::reconstruction() const {
   return *s.reconstruction;
 }
 
-bool Solver::Solution::measure(const StageTools& tools, double accuracy, Stats& stats) {
+bool Solver::Solution::measure(const StageTools& tools, double accuracy, Stats& stats,
+                               const std::function<void(const MeasuredError&)>& so_far) {
   const double all = expected_rays_of_estimate(accuracy) + rays_of_the_balance;
   const double of_balance = rays_of_the_balance / all;
   const std::optional<ErrorEstimate> estimate =
-      estimate_error(state, tools.of_part(0, 1 - of_balance), accuracy);
+      estimate_error(state, tools.of_part(0, 1 - of_balance), accuracy, so_far);
   if (!estimate) return false;
   std::optional<PowerBalance> measured = measure_balance(state, tools.of_part(1 - of_balance, 1));
   if (!measured) return false;

@@ -117,6 +117,10 @@ RowSettings rows_of(const Params& params, const Forest& forest, double distance,
   return s;
 }
 
+// Between that of small patches, which only get more rays, and that of large ones, where rays grow
+// with the inverse square.
+double growth_of_linking(double tightening) { return 1 / (tightening * std::sqrt(tightening)); }
+
 double sweep_tolerance(const Params& params, int round) {
   return round < first_rounds ? 1e-3 : std::min(1e-4, params.accuracy * 5e-3);
 }

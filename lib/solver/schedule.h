@@ -32,6 +32,9 @@ bool by_rows(const Params& params, const Forest& forest, const Inspection& inspe
 // Rows of rays; distance: the mean one between surfaces.
 RowSettings rows_of(const Params& params, const Forest& forest, double distance, double scale);
 
+// About how much longer linking by rows takes when thresholds are multiplied by `tightening`.
+double growth_of_linking(double tightening);
+
 // Share of the transported light that may be missing when the sweeps of a round stop.
 double sweep_tolerance(const Params& params, int round);
 

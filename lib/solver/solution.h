@@ -1,6 +1,7 @@
 // What a solver holds from the Initial Stage on. Floor 8 (solver).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct Solver::Solution : SolveProgress {
   State state;
 
   // Error and balance by rays, into stats and balance. False: stopped, and nothing has changed.
-  bool measure(const StageTools& tools, double accuracy, Stats& stats);
+  bool measure(const StageTools& tools, double accuracy, Stats& stats,
+               const std::function<void(const MeasuredError&)>& so_far = {});
 
   // For queries, made when the solve is finished or stopped.
   std::vector<NodeId> leaves;  // in key order

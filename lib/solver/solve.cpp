@@ -125,13 +125,13 @@ Status Solver::Run::finish() {
 
 // When it missed the accuracy and there is something left to try.
 bool Solver::Run::is_to_be_tightened() const {
-  return solution_.converged && steered_by_accuracy() && error_but(2) > params_.accuracy &&
-         solution_.tightened < most_tightenings;
+  return may_be_tightened() && error_but(2) > params_.accuracy;
 }
 
 void Solver::Run::tighten() {
-  const double error = solver_.stats_.error_estimate;
-  solution_.scale *= std::max(least_tightening, std::min(0.7, 0.7 * params_.accuracy / error));
+  const double tightening = tightening_for(solver_.stats_.error_estimate);
+  solution_.scale *= tightening;
+  seconds_of_linking_ *= growth_of_linking(tightening);
   ++solution_.tightened;
   solution_.finished = false;
   if (by_rows_) solution_.linked = false;

@@ -2,6 +2,7 @@
 // Floor 8 (solver).
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <vector>
 
@@ -34,6 +35,13 @@ class Solver::Run {
   double error_but(double standard_errors) const {
     return solver_.stats_.error_estimate - standard_errors * solver_.stats_.error_standard_error;
   }
+  bool may_be_tightened() const {
+    return solution_.converged && steered_by_accuracy() && solution_.tightened < most_tightenings;
+  }
+  // By what thresholds are multiplied when so large an error has been measured.
+  double tightening_for(double error) const {
+    return std::max(least_tightening, std::min(0.7, 0.7 * params_.accuracy / error));
+  }
   bool steered_by_accuracy() const { return params_.tolerance <= 0 && params_.oracle != "energy"; }
 
   // The stages (solve_stages.cpp). False: stopped.
@@ -49,6 +57,7 @@ class Solver::Run {
   bool round();
   // Seconds that are still to come, as far as anybody knows (solve_stages.cpp).
   double of_measuring() const;
+  double of_solving_again() const;
   double of_later_rounds(int done, double seconds_of_last) const;
   bool sweep(int round);
   bool measure();
@@ -59,8 +68,10 @@ class Solver::Run {
   const Params& params_;
   const bool by_rows_;
   Exchange& exchange_;
-  std::vector<double> work_;                             // of each own surface in the last round
-  double seconds_of_round_ = 0, seconds_of_sweeps_ = 0;  // of the last ones
+  std::vector<double> work_;  // of each own surface in the last round
+  // Of the last ones; of linking, where it is to be done again, what that may take.
+  double seconds_of_linking_ = 0, seconds_of_round_ = 0, seconds_of_sweeps_ = 0;
+  MeasuredError error_so_far_;  // while it is being measured
   ProgressClock clock_;
 };
 

@@ -21,6 +21,9 @@ namespace {
 // how much longer each round takes than the one before; and what nobody knows.
 constexpr double rounds_of_linking = 1.5, sweeps_of_rows = 0.05, growth_of_rounds = 2.6;
 constexpr TimeLeft::Expected unknown{-1};
+// Linking by rows again: what it took before tells more than its pace, which changes from step to
+// step.
+constexpr double pace_of_a_repetition_tells_from = 1;
 // Large tasks come first and leave most of their work to later passes of a round, so that its pace
 // promises too much.
 constexpr double pace_of_rounds_tells_from = 1;
@@ -69,7 +72,8 @@ void Solver::Run::begin_sweeps(int round) {
 bool Solver::Run::link() {
   const auto start = std::chrono::steady_clock::now();
   const double later = by_rows_ ? sweeps_of_rows : rounds_of_linking;
-  clock_.begin("linking", unknown,
+  const TimeLeft::Expected expected{seconds_of_linking_, pace_of_a_repetition_tells_from};
+  clock_.begin("linking", seconds_of_linking_ > 0 ? expected : unknown,
                [this, later](double seconds) { return later * seconds + of_measuring(); });
   begin_journal(stage_of_linking);
   const bool done = by_rows_                        ? link_by_rows()
@@ -77,6 +81,7 @@ bool Solver::Run::link() {
                                                     : link_by_pairs();
   solver_.stats_.seconds_linking +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  seconds_of_linking_ = clock_.seconds_of_stage();
   if (!done) {
     state_.rays = state_.journal.rays_before;
     state_.pairs = state_.journal.pairs_before;
@@ -195,10 +200,23 @@ bool Solver::Run::sweep(int round) {
   return going_on;
 }
 
+// Where what is known of the error so far says that it will be wanted.
+double Solver::Run::of_solving_again() const {
+  const MeasuredError& known = error_so_far_;
+  if (!may_be_tightened() || known.error - known.standard_error <= params_.accuracy) return 0;
+  const double of_linking =
+      by_rows_ ? seconds_of_linking_ * growth_of_linking(tightening_for(known.error))
+               : growth_of_rounds * seconds_of_round_;
+  return of_linking + seconds_of_sweeps_ + of_measuring();
+}
+
 bool Solver::Run::measure() {
-  clock_.begin("measure", {of_measuring()}, [](double) { return 0.0; });
+  error_so_far_ = {};
+  clock_.begin("measure", {of_measuring()}, [this](double) { return of_solving_again(); });
   begin_journal(stage_of_measuring);
-  if (!solution_.measure(tools(first_rounds), params_.accuracy, solver_.stats_)) return false;
+  const auto so_far = [this](const MeasuredError& error) { error_so_far_ = error; };
+  if (!solution_.measure(tools(first_rounds), params_.accuracy, solver_.stats_, so_far))
+    return false;
   forget_journal();
   return true;
 }

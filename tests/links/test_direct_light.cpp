@@ -120,6 +120,39 @@ void half_a_lamp_is_hidden() {
   CHECK_NEAR(sum, wanted, 0.01 * wanted);
 }
 
+// Half way up to the lamp a plate hides all with x < 0: from a point of the floor as much of the
+// lamp is seen as lies beyond the point mirrored. RMS over the penumbra, relative to the lamp.
+void a_penumbra_has_no_steps() {
+  for (double side : {0.5, 2.0}) {  // afar, and so near that its parts are sampled
+    Scene scene = floor_and_lamp(side);
+    add_quad(scene, {-5, -5, 0.5}, {5, 0, 0}, {0, 10, 0});
+    Lit strong(scene);
+    const Emitter& lamp = strong.emitters.all().front();
+    Lit weak(scene, 0.05 * lamp.brightness * Emitters::rough_factor(lamp, {0, 0.3, 0}, up));
+    constexpr int points = 100;
+    double of_strong = 0, of_weak = 0, all = 0;
+    for (int k = 0; k < points; ++k) {
+      const double seen = side * (k + 0.5) / points;
+      const Vec3 x{seen - side / 2, 0.3, 0};
+      Scene part;
+      add_quad(part, {side / 2 - seen, -side / 2, 1}, {0, side, 0}, {seen, 0, 0});
+      const double wanted =
+          point_to_triangle(x, up, part.triangle(0)) + point_to_triangle(x, up, part.triangle(1));
+      of_strong += std::pow(strong.at(x, up) - wanted, 2);
+      of_weak += std::pow(weak.at(x, up) - wanted, 2);
+      all += std::pow(exact(scene, x, up), 2);
+      CHECK(strong.rays <= 128 && weak.rays <= 32);
+    }
+    CHECK(std::sqrt(of_strong / all) < 0.02);
+    CHECK(std::sqrt(of_weak / all) < 0.06);
+    // What is wholly seen or hidden needs no closer look.
+    strong.at({3, 0.3, 0}, up);
+    CHECK(strong.rays <= 32);
+    strong.at({-3, 0.3, 0}, up);
+    CHECK(strong.rays <= 32);
+  }
+}
+
 // A plate pressed against the lamp from x on: what is left shines, not so many sixteenths of it;
 // how much is left is measured to a fiftieth.
 void what_is_sealed_of_a_lamp_sends_nothing() {
@@ -185,7 +218,8 @@ void faces_are_joined() {
   CHECK(lit.emitters.of_node(2) != lit.emitters.of_node(4));
   CHECK_EQUAL(lit.emitters.of_node(4), lit.emitters.of_node(5));
   for (const Emitter& e : lit.emitters.all())
-    for (const Vec3& p : e.point) CHECK(length(p - e.center) <= e.radius * (1 + 1e-9));
+    for (size_t k = 0; k < Emitter::point_count; ++k)
+      CHECK(length(e.point(k) - e.center) <= e.radius * (1 + 1e-6));
 }
 
 // A cube of the grid knows every emitter that is sampled at one of its points.
@@ -376,6 +410,7 @@ int main() {
       HRAD_TEST(unoccluded_light_is_lamberts),
       HRAD_TEST(behind_a_horizon_there_is_none),
       HRAD_TEST(half_a_lamp_is_hidden),
+      HRAD_TEST(a_penumbra_has_no_steps),
       HRAD_TEST(what_is_sealed_of_a_lamp_sends_nothing),
       HRAD_TEST(a_sealed_lamp_is_no_emitter),
       HRAD_TEST(few_rays_are_unbiased),
