@@ -6,83 +6,17 @@
 #include "base/angle.h"
 #include "links/direct_light.h"
 #include "links/form_factor.h"
-#include "support/workbench.h"
-#include "visibility/brute_force.h"
+#include "links/lit.h"
 
 namespace {
 
 using namespace hrad;
 using namespace hrad_test;
 
-void open(LightGrid& grid, const std::vector<OrientedPoint>& points, Workbench& bench) {
-  int64_t rays = 0;
-  const auto opener = [&](std::vector<LightGrid::Opened>& cubes,
-                          const std::function<void(size_t)>& find) {
-    return bench.team.for_each(static_cast<int64_t>(cubes.size()),
-                               [&](int64_t k, int) { find(static_cast<size_t>(k)); });
-  };
-  CHECK(grid.open(points, bench.team, bench.comm, opener, rays));
-}
-
-State& with_exposed_shares(Workbench& bench) {
-  const LinkSampler sampler = bench.sampler();
-  for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
-  return bench.state;
-}
-
-// A scene with its emitters as linking by rows sees them.
-struct Lit {
-  explicit Lit(Scene s, double noise = 1e-6, double least_bright = 1e-9)
-      : bench(std::move(s)),
-        expected(expected_brightness(with_exposed_shares(bench))),
-        emitters(bench.state.forest, bench.exposure, expected.of_node, least_bright),
-        grid(emitters, *bench.engine, 0.7, 8 * noise),
-        light(bench.state.forest, *bench.engine, emitters, grid, noise) {}
-
-  double at(Vec3 x, Vec3 normal, uint64_t key = 1) {
-    open(grid, {{x, normal}}, bench);
-    std::vector<Link> links;
-    rays = light.sample({x, normal}, key, links);
-    double sum = 0;
-    for (const Link& link : links) sum += link.weight;
-    return sum;
-  }
-
-  Workbench bench;
-  Brightness expected;
-  Emitters emitters;
-  LightGrid grid;
-  DirectLight light;
-  int64_t rays = 0;
-};
-
-// The same with groups.
-struct LitByGroups : Lit {
-  explicit LitByGroups(Scene s, double noise) : Lit(std::move(s), noise) {
-    emitters.join(bench.state.forest, bench.exposure);
-  }
-};
-
-void make_last_emit(Scene& scene, int64_t patches, double emission) {
-  const size_t first = scene.emission.size() - static_cast<size_t>(patches * scene.bands);
-  for (size_t k = first; k < scene.emission.size(); ++k) scene.emission[k] = emission;
-}
-
-// A floor of side 10 under a square lamp of side `side` at height 1, which shines down.
-Scene floor_and_lamp(double side) {
-  Scene scene;
-  add_quad(scene, {-5, -5, 0}, {10, 0, 0}, {0, 10, 0});
-  add_quad(scene, {-side / 2, -side / 2, 1}, {0, side, 0}, {side, 0, 0});
-  make_last_emit(scene, 2, 100);
-  return scene;
-}
-
 double exact(const Scene& scene, Vec3 x, Vec3 normal) {
   return point_to_triangle(x, normal, scene.triangle(2)) +
          point_to_triangle(x, normal, scene.triangle(3));
 }
-
-const Vec3 up{0, 0, 1};
 
 void unoccluded_light_is_lamberts() {
   for (double side : {1e-6, 0.01, 0.05, 0.15, 0.3, 2.0, 6.0}) {
@@ -276,133 +210,6 @@ void what_is_hidden_and_weak_has_no_links() {
   CHECK(strong.grid.by_links(0, under, strong.grid.at(under)));
 }
 
-// Lamps in two rows over one end of a long floor, in two heights; a plate hides one row from most
-// of the floor.
-Scene floor_and_many_lamps() {
-  Scene scene;
-  add_quad(scene, {0, -2, 0}, {60, 0, 0}, {0, 4, 0});
-  for (int k = 0; k < 24; ++k) {
-    add_quad(scene, {0.7 * (k / 2), k % 2 ? 1.0 : -1.0, 3 + 0.1 * (k % 3)}, {0, 0.2, 0},
-             {0.2, 0, 0});
-    make_last_emit(scene, 2, 100);
-  }
-  add_quad(scene, {0, 0, 2.9}, {12, 0, 0}, {0, 5, 0});
-  return scene;
-}
-
-// The same with a plate pressed against a quarter of each lamp.
-Scene floor_and_many_pressed_lamps() {
-  Scene scene = floor_and_many_lamps();
-  for (int k = 0; k < 24; ++k) {
-    const Vec3 low{0.7 * (k / 2) + 0.15, k % 2 ? 1.0 : -1.0, 3 + 0.1 * (k % 3)};
-    add_box(scene, low - Vec3{0, 0, 1e-4}, low + Vec3{0.05, 0.2, 0});
-  }
-  return scene;
-}
-
-// Groups fall into smaller ones and single emitters, each in one; lamps of another plane apart.
-void groups_hold_every_emitter_once() {
-  LitByGroups lit(floor_and_many_lamps(), 1e-3);
-  const std::vector<Emitter>& all = lit.emitters.all();
-  std::vector<int> met(all.size(), 0);
-  std::vector<int32_t> stack = lit.emitters.tops();
-  int groups = 0;
-  while (!stack.empty()) {
-    const int32_t number = stack.back();
-    stack.pop_back();
-    ++met[number];
-    const Emitter& e = all[number];
-    std::vector<int32_t> below;
-    for (int32_t part : e.parts) {
-      CHECK_EQUAL(all[part].group, number);
-      stack.push_back(part);
-      if (all[part].members.empty())
-        below.push_back(part);
-      else
-        below.insert(below.end(), all[part].members.begin(), all[part].members.end());
-    }
-    if (e.members.empty()) {
-      CHECK_EQUAL(e.cluster, -1);
-      continue;
-    }
-    ++groups;
-    std::sort(below.begin(), below.end());
-    CHECK(below == e.members);
-    CHECK_EQUAL(lit.emitters.of_node(e.cluster), number);
-    double area = 0;
-    for (int32_t member : e.members) area += all[member].area;
-    CHECK_NEAR(e.area, area, 1e-12);
-    CHECK_NEAR(lit.bench.state.forest.area(lit.bench.state.forest.nodes[e.cluster]), area, 1e-9);
-  }
-  CHECK(groups > 8);
-  for (int count : met) CHECK_EQUAL(count, 1);
-}
-
-// Every other lamp twice as bright: none shares a group with one that is not.
-void groups_shine_alike() {
-  Scene scene = floor_and_many_lamps();
-  for (size_t patch = 2; patch < 50; ++patch)
-    if (patch / 2 % 2 == 0)
-      for (int b = 0; b < scene.bands; ++b) scene.emission[patch * scene.bands + b] *= 2;
-  LitByGroups lit(scene, 1e-3);
-  int groups = 0;
-  for (const Emitter& e : lit.emitters.all())
-    for (int32_t member : e.members) {
-      CHECK_EQUAL(lit.emitters.all()[member].brightness, e.brightness);
-      ++groups;
-    }
-  CHECK(groups > 0);
-}
-
-// What a cube looks at, groups and single lamps together, is every lamp once.
-void a_cube_sees_every_lamp_once() {
-  LitByGroups lit(floor_and_many_lamps(), 1e-3);
-  int groups = 0, singles = 0;
-  for (double x : {1.0, 9.0, 20.0, 45.0}) {
-    const OrientedPoint point{{x, -0.5, 0}, up};
-    open(lit.grid, {point}, lit.bench);
-    std::vector<int> met(lit.emitters.all().size(), 0);
-    for (const LightGrid::Candidate& candidate : lit.grid.at(point)) {
-      const Emitter& e = lit.emitters.all()[candidate.emitter];
-      (e.members.empty() ? singles : groups) += 1;
-      if (e.members.empty()) ++met[candidate.emitter];
-      for (int32_t member : e.members) ++met[member];
-    }
-    for (size_t e = 0; e < 24; ++e) {
-      CHECK_EQUAL(met[e], 1);
-      CHECK(lit.grid.by_links(static_cast<int32_t>(e), point, lit.grid.at(point)));
-    }
-  }
-  CHECK(groups > 4 && singles > 4);
-}
-
-// Whether by one ray or by sixteen, a group brings on the average what its lamps bring.
-void bring_what_their_lamps_bring(const Scene& scene) {
-  for (double x : {9.0, 20.0, 45.0}) {
-    const Vec3 place{x, -0.5, 0};
-    Lit single(scene, 1e-6);
-    const double wanted = single.at(place, up);
-    for (double noise : {1e6, 0.02}) {
-      LitByGroups lit(scene, noise);
-      double sum = 0, squares = 0;
-      constexpr int keys = 3000;
-      for (int k = 0; k < keys; ++k) {
-        const double value = lit.at(place, up, static_cast<uint64_t>(k));
-        sum += value;
-        squares += value * value;
-      }
-      const double mean = sum / keys, error = std::sqrt((squares / keys - mean * mean) / keys);
-      CHECK_NEAR(mean, wanted, 4 * error + 0.02 * wanted);
-      CHECK(lit.rays < single.rays);
-    }
-  }
-}
-
-void groups_bring_what_their_lamps_bring() {
-  bring_what_their_lamps_bring(floor_and_many_lamps());
-  bring_what_their_lamps_bring(floor_and_many_pressed_lamps());
-}
-
 }  // namespace
 
 int main() {
@@ -419,10 +226,6 @@ int main() {
       HRAD_TEST(the_grid_misses_none),
       HRAD_TEST(pilot_rays_tell_what_is_hidden),
       HRAD_TEST(what_is_hidden_and_weak_has_no_links),
-      HRAD_TEST(groups_hold_every_emitter_once),
-      HRAD_TEST(groups_shine_alike),
-      HRAD_TEST(a_cube_sees_every_lamp_once),
-      HRAD_TEST(groups_bring_what_their_lamps_bring),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
