@@ -114,6 +114,13 @@ void a_folder_that_is_not_shared() {
   }
 }
 
+// At the beginning of this process's memory nothing can be read.
+void a_part_that_can_not_be_read() {
+  hrad::FilePartSelf part("/proc/self/mem", "path");
+  char some[4];
+  CHECK_FAILS(part.read_start(some, sizeof some), hrad::Status::file, "path: cannot read: ");
+}
+
 // What rank 0 alone does: making the file and giving it its name.
 void what_rank_0_can_not_do() {
   const Folder folder("shared");
@@ -142,6 +149,7 @@ int main() {
       HRAD_TEST(by_one<modes_and_names>),        HRAD_TEST(by_threads<modes_and_names>),
       HRAD_TEST(by_one<abandoned_by_all>),       HRAD_TEST(by_threads<abandoned_by_all>),
       HRAD_TEST(every_step_on_every_rank),       HRAD_TEST(a_folder_that_is_not_shared),
+      HRAD_TEST(a_part_that_can_not_be_read),
       HRAD_TEST(what_rank_0_can_not_do),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
