@@ -116,7 +116,7 @@ void CornerSampler::count_memory() {
   counted_ = static_cast<int64_t>(bytes);
 }
 
-bool CornerSampler::sample() {
+bool CornerSampler::sample(double work) {
   count_memory();
   const size_t count = wanted_.size();
   const auto point = [&](size_t k) {
@@ -135,15 +135,17 @@ bool CornerSampler::sample() {
   });
   bool going_on = true;
   for (size_t first = 0; first < count && going_on; first += corners_of_a_step)
-    going_on = sample_some(before + first, before + std::min(count, first + corners_of_a_step));
+    going_on =
+        sample_some(before + first, before + std::min(count, first + corners_of_a_step), work);
   if (!tools_.exchange.all_go_on(going_on)) return false;
+  work_ += work * static_cast<double>(count);
   wanted_.clear();
   count_memory();
   return true;
 }
 
 // The points from first to end-1.
-bool CornerSampler::sample_some(size_t first, size_t end) {
+bool CornerSampler::sample_some(size_t first, size_t end, double work) {
   const auto is_emitter = [&](NodeId source) { return grid_.emitters().is_emitter(source); };
   const size_t first_wanted = value_.size() - wanted_.size(), first_part = parts_.size();
   const size_t tasks = pieces_of(end - first, corners_of_a_task);
@@ -181,10 +183,11 @@ bool CornerSampler::sample_some(size_t first, size_t end) {
           links_[k] = {next, count_of[k - from]};
       },
       [&](int64_t done) {
-        const double known = static_cast<double>(first) + static_cast<double>(done) *
-                                                              static_cast<double>(end - first) /
-                                                              static_cast<double>(tasks);
-        return tools_.progress(known / static_cast<double>(std::max(expected_, asked())));
+        const double points = static_cast<double>(first - first_wanted) +
+                              static_cast<double>(done) * static_cast<double>(end - first) /
+                                  static_cast<double>(tasks);
+        const double asked = work_ + work * static_cast<double>(wanted_.size());
+        return tools_.progress((work_ + work * points) / std::max(expected_, asked));
       },
       [&](LinkStep& step, int64_t task) {
         for (size_t k = first_of(task); k < first_of(task + 1); ++k)

@@ -27,12 +27,13 @@ class CornerSampler {
 
   // Asks for the light at these points; asking twice is the same as once.
   void want(const std::vector<ElementPoints>& all);
-  // For the progress that sample() reports: how many points there will be in all, roughly; and how
-  // many have been asked for so far.
-  void expect(int64_t points) { expected_ = points; }
   int64_t asked() const { return static_cast<int64_t>(sampled_ + wanted_.size()); }
-  // Samples what was asked for since the last time; false: stopped.
-  bool sample();
+  // For the progress that sample() reports: how many points there will be after those asked for so
+  // far, roughly, in points that take as long as most.
+  void expect(double later) { expected_ = work_ + static_cast<double>(wanted_.size()) + later; }
+  // Samples what was asked for since the last time; false: stopped. work: of each of these points,
+  // in such points.
+  bool sample(double work = 1);
   // Of a sampled corner: its light in units of the scene's mean irradiance, negative when it is
   // sealed.
   double value(int32_t number) const { return value_[number]; }
@@ -67,7 +68,7 @@ class CornerSampler {
   Wanted wanted_of(uint64_t key) const;
   Wanted own_of(NodeId element, int which, Vec3 place) const;
   OrientedPoint point_of(const Wanted& wanted) const;
-  bool sample_some(size_t first, size_t end);
+  bool sample_some(size_t first, size_t end, double work);
   void count_links(size_t more);
   void count_memory();
   Vec3 point_of(int32_t surface, LatticePoint point) const;
@@ -96,7 +97,7 @@ class CornerSampler {
   size_t link_count_ = 0;
   StageMemory memory_;  // of all these
   int64_t counted_ = 0;
-  int64_t expected_ = 0;
+  double work_ = 0, expected_ = 0;  // done, and in all
 };
 
 }  // namespace hrad

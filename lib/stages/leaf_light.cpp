@@ -99,8 +99,7 @@ bool LeafLight::name() {
   corners_.add_middles(wanted, number_of_centroid);
   const auto its_middle = [&](size_t k) { return keyed_middle_of(forest_, leaves[k]); };
   if (!open_cubes(grid_, leaves.size(), its_middle, state_, tools_)) return false;
-  corners_.expect(corners_.asked());
-  if (!corners_.sample()) return false;
+  if (!corners_.sample(work_of_a_middle)) return false;
   add_up_means(leaves, centroids);
   return true;
 }

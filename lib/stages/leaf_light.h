@@ -16,6 +16,9 @@ KeyedPoint keyed_middle_of(const Forest& forest, NodeId leaf);
 // Of points that the mean of a large leaf is made of where it is known at no points of its own.
 constexpr int points_of_a_mean = 16;
 
+// Of sampling the middle of a leaf, beside points of a mesh that is being divided.
+constexpr double work_of_a_middle = 0.75;
+
 class LeafLight {
  public:
   // All must outlive this.

@@ -82,7 +82,7 @@ void RowMesh::guess_share(const std::vector<NodeId>& cells,
   };
   double expected = 0;
   for (NodeId cell : cells) expected += points_of(cell);
-  corners_.expect(static_cast<int64_t>(expected));
+  corners_.expect(expected);
   const size_t step = cells.size() / most_looked_at + 1;
   std::vector<double> shadow_rays((cells.size() + step - 1) / step);
   for_each_thing(tools_.team, shadow_rays.size(), [&](size_t k) {
@@ -151,13 +151,13 @@ std::vector<ElementPoints> RowMesh::points_of_own(const std::vector<NodeId>& ele
 // To guess how much work there will be, of the points that two levels ask for: later levels go on
 // as these did, each of their points brings a leaf, and each leaf but small patches asks for its
 // middle.
-int64_t RowMesh::points_after(double of_level, double of_level_before) const {
+double RowMesh::points_after(double of_level, double of_level_before) const {
   const double growth =
       of_level_before > 0 ? std::min(most_growth, of_level / of_level_before) : most_growth;
   const double of_later_levels = of_level * growth / (1 - growth);
   const double leaves =
       static_cast<double>(static_cast<int64_t>(forest_.nodes.size()) - small_patches_) * 3 / 4;
-  return static_cast<int64_t>(leaves + of_level + 2 * of_later_levels);
+  return work_of_a_middle * (leaves + of_level + of_later_levels) + of_later_levels;
 }
 
 // Divides the open elements, whose corners are known, until direct light is linear between them.
@@ -171,7 +171,7 @@ bool RowMesh::refine(std::vector<NodeId> open) {
     const int64_t asked_before = corners_.asked();
     corners_.want(points_of_own(asked, PointsOf::middles_of_edges));
     const double of_level = static_cast<double>(corners_.asked() - asked_before);
-    corners_.expect(corners_.asked() + points_after(of_level, of_level_before));
+    corners_.expect(points_after(of_level, of_level_before));
     of_level_before = of_level;
     if (!sample_corners()) return false;
     const std::vector<uint8_t> fate = fate_of(open, asked);

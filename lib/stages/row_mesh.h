@@ -46,7 +46,7 @@ class RowMesh {
   bool make_cells();
   bool keep_small_patches(std::vector<NodeId>& open);
   bool refine(std::vector<NodeId> open);
-  int64_t points_after(double of_level, double of_level_before) const;
+  double points_after(double of_level, double of_level_before) const;
   std::vector<uint8_t> fate_of(const std::vector<NodeId>& open,
                                const std::vector<NodeId>& asked) const;
   std::vector<ElementPoints> points_of_own(const std::vector<NodeId>& elements,
