@@ -136,19 +136,88 @@ Patches::Patches(const State& state) {
     weights.push_back(areas[k] * (squares > 0 ? square[k] * dark_area / squares + 1 : 1));
 }
 
-// By the first parts of the first batch.
-MeasuredError error_of_parts(const std::vector<DrawnPatch>& drawn,
-                             const std::vector<Residual>& residuals, size_t parts,
-                             double returned) {
-  std::vector<DrawnPatch> some;
-  std::vector<Residual> of_some;
-  for (size_t k = 0; k < patches_of_a_batch; ++k) {
-    if (k % parts_of_a_batch >= parts) continue;
-    some.push_back(drawn[k]);
-    of_some.push_back(residuals[k]);
+// Residuals of patches that are drawn batch by batch.
+class Measurement {
+ public:
+  // All must outlive this.
+  Measurement(State& state, const StageTools& tools, const Patches& patches, int points)
+      : state_(state),
+        tools_(tools),
+        patches_(patches),
+        points_(points),
+        draw_(patches.weights),
+        rays_(state, tools.engine, RayGather::Solution::doubted),
+        spaces_(static_cast<size_t>(tools.team.size())) {}
+
+  void draw_batch() {
+    const size_t first = drawn_.size();
+    for (size_t k = 0; k < patches_of_a_batch; ++k) {
+      const double step = static_cast<double>(k) + unit_interval(key_of(first + k));
+      const size_t patch = draw_.pick(step / patches_of_a_batch);
+      drawn_.push_back({patch, patches_.areas[patch] / patches_.weights[patch]});
+    }
+    residuals_.resize(drawn_.size());
   }
-  return error_of(some, of_some, returned);
-}
+
+  // A part of the last batch. progress: told how much of it is done. False: stopped.
+  bool measure(size_t part, const std::function<bool(double)>& progress) {
+    const size_t first = drawn_.size() - patches_of_a_batch;
+    std::vector<Residual> measured(patches_of_a_batch / parts_of_a_batch);
+    std::vector<size_t> own;
+    for (size_t k = 0; k < measured.size(); ++k)
+      if (tools_.exchange.my_turn(static_cast<int64_t>(k))) own.push_back(k);
+    const auto residual = [&](size_t task) -> Residual& { return measured[own[task]]; };
+    const auto measure_one = [&](size_t task, int worker) {
+      const size_t number = first + place_of(part, own[task]);
+      residual(task) = residual_of(state_, tools_, rays_, spaces_[static_cast<size_t>(worker)],
+                                   patches_.roots[drawn_[number].number], key_of(number), points_,
+                                   patches_.reflected);
+    };
+    const double tasks = static_cast<double>(std::max<size_t>(1, own.size()));
+    const bool going_on = state_.journal.next_pass_of(
+        tools_.team, own.size(),
+        {[&](size_t task) { return static_cast<uint64_t>(place_of(part, own[task])); },
+         [&](size_t task, KnownResult& known) { return take_residual(known, residual(task)); },
+         measure_one, [&](size_t task, Bytes& bytes) { put(bytes, &residual(task), 1); }},
+        [&](int64_t done) { return progress(static_cast<double>(done) / tasks); });
+    if (!tools_.exchange.all_go_on(going_on)) return false;
+    for (const Residual& r : measured) rays_sent_ += r.rays;
+    tools_.exchange.share_turns(measured);
+    for (size_t k = 0; k < measured.size(); ++k)
+      residuals_[first + place_of(part, k)] = measured[k];
+    return true;
+  }
+
+  MeasuredError error() const { return error_of(drawn_, residuals_, patches_.returned); }
+  // By the first parts of the first batch, all there is.
+  MeasuredError error_of_parts(size_t parts) const {
+    std::vector<DrawnPatch> drawn;
+    std::vector<Residual> residuals;
+    for (size_t k = 0; k < drawn_.size(); ++k) {
+      if (k % parts_of_a_batch >= parts) continue;
+      drawn.push_back(drawn_[k]);
+      residuals.push_back(residuals_[k]);
+    }
+    return error_of(drawn, residuals, patches_.returned);
+  }
+  int64_t rays_sent() const { return rays_sent_; }
+
+ private:
+  // In a batch, of patch k of a part.
+  static size_t place_of(size_t part, size_t k) { return part + parts_of_a_batch * k; }
+  uint64_t key_of(size_t number) const { return mix(tools_.oracle.seed, number, 0x6572726f72u); }
+
+  State& state_;
+  const StageTools& tools_;
+  const Patches& patches_;
+  const int points_;
+  const Draw draw_;
+  const RayGather rays_;
+  std::vector<RayGather::NearEmitters> spaces_;
+  std::vector<Residual> residuals_;
+  std::vector<DrawnPatch> drawn_;
+  int64_t rays_sent_ = 0;  // by this process
+};
 
 }  // namespace
 
@@ -165,59 +234,20 @@ std::optional<ErrorEstimate> estimate_error(
   ErrorEstimate estimate;
   const Patches patches(state);
   if (patches.roots.empty()) return estimate;
-  const Draw draw(patches.weights);
-  const RayGather rays(state, tools.engine, RayGather::Solution::doubted);
-  const int points = points_of_a_half(accuracy);
-  std::vector<RayGather::NearEmitters> spaces(static_cast<size_t>(tools.team.size()));
-  std::vector<Residual> residuals;
-  std::vector<DrawnPatch> drawn;
-  const auto key_of = [&](size_t number) { return mix(tools.oracle.seed, number, 0x6572726f72u); };
-  const auto number_of = [](size_t part, size_t k) { return part + parts_of_a_batch * k; };
-  double done = 0, batches = expected_batches(accuracy);
-  // The patches of a part of the batch that begins with number `first`; false: stopped.
-  const auto measure_part = [&](size_t first, size_t part) {
-    constexpr size_t count = patches_of_a_batch / parts_of_a_batch;
-    std::vector<Residual> measured(count);
-    std::vector<size_t> own;
-    for (size_t k = 0; k < count; ++k)
-      if (tools.exchange.my_turn(static_cast<int64_t>(k))) own.push_back(k);
-    const auto measure = [&](size_t task, int worker) {
-      const size_t number = first + number_of(part, own[task]);
-      measured[own[task]] = residual_of(state, tools, rays, spaces[static_cast<size_t>(worker)],
-                                        patches.roots[drawn[number].number], key_of(number), points,
-                                        patches.reflected);
-    };
-    const bool going_on = state.journal.next_pass_of(
-        tools.team, own.size(),
-        {[&](size_t task) { return static_cast<uint64_t>(number_of(part, own[task])); },
-         [&](size_t task, KnownResult& known) { return take_residual(known, measured[own[task]]); },
-         measure, [&](size_t task, Bytes& bytes) { put(bytes, &measured[own[task]], 1); }},
-        [&](int64_t tasks) {
-          const double of_part = static_cast<double>(tasks) / static_cast<double>(own.size());
-          return tools.progress((done + of_part / parts_of_a_batch) / batches);
-        });
-    if (!tools.exchange.all_go_on(going_on)) return false;
-    for (const Residual& r : measured) estimate.rays += r.rays;
-    tools.exchange.share_turns(measured);
-    for (size_t k = 0; k < count; ++k) residuals[first + number_of(part, k)] = measured[k];
-    return true;
-  };
+  Measurement measurement(state, tools, patches, points_of_a_half(accuracy));
+  double batches = expected_batches(accuracy);
   for (int batch = 0; batch < most_batches; ++batch) {
-    const size_t first = residuals.size();
-    residuals.resize(first + patches_of_a_batch);
-    for (size_t k = 0; k < patches_of_a_batch; ++k) {
-      const double step = static_cast<double>(k) + unit_interval(key_of(first + k));
-      const size_t patch = draw.pick(step / patches_of_a_batch);
-      drawn.push_back({patch, patches.areas[patch] / patches.weights[patch]});
-    }
+    measurement.draw_batch();
     for (size_t part = 0; part < parts_of_a_batch; ++part) {
-      if (!measure_part(first, part)) return std::nullopt;
-      done += 1.0 / parts_of_a_batch;
-      if (so_far && batch == 0)
-        so_far(error_of_parts(drawn, residuals, part + 1, patches.returned));
+      const auto progress = [&](double share) {
+        const double parts = static_cast<double>(part) + share;
+        return tools.progress((batch + parts / parts_of_a_batch) / batches);
+      };
+      if (!measurement.measure(part, progress)) return std::nullopt;
+      if (so_far && batch == 0) so_far(measurement.error_of_parts(part + 1));
     }
-    static_cast<MeasuredError&>(estimate) = error_of(drawn, residuals, patches.returned);
-    if (so_far) so_far(estimate);
+    static_cast<MeasuredError&>(estimate) = measurement.error();
+    if (so_far && batch > 0) so_far(estimate);
     const double wanted = std::max(precise_share * estimate.error, precise_enough * accuracy);
     if (estimate.standard_error < wanted) break;
     const double short_by = estimate.standard_error / wanted;
@@ -225,6 +255,7 @@ std::optional<ErrorEstimate> estimate_error(
         batches,
         std::min<double>(most_batches, std::max(batch + 2.0, (batch + 1) * short_by * short_by)));
   }
+  estimate.rays = measurement.rays_sent();
   return estimate;
 }
 
