@@ -77,6 +77,13 @@ struct DirectLight::Batch {
     const Vec3 y = e.point(k);
     aim(engine, from, {y, e.normal}, kernel(from.place, from.normal, y, e.normal));
   }
+  // The weights of some of the rays, and of those that are seen.
+  void add_up(uint32_t seen, int first, int count, Weights& sum) const {
+    for (int k = first; k < first + count; ++k) {
+      sum.all += weight[k];
+      if (seen >> k & 1) sum.visible += weight[k];
+    }
+  }
   // Which rays nothing stops.
   uint32_t trace(const VisibilityEngine& engine) {
     for (int k = used; k < 16; ++k) packet.set(k, Vec3{0, 0, 0}, Vec3{1, 0, 0});
@@ -188,8 +195,7 @@ void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<L
     const Batch::Part& part = batch.parts[p];
     const Emitter& e = *part.emitter;
     Weights sum;
-    for (int k = part.first; k < part.first + part.rays; ++k)
-      sum.add(batch.weight[k], seen >> k & 1);
+    batch.add_up(seen, part.first, part.rays, sum);
     // A strip above the horizon that all points miss is taken for visible.
     if (sum.all > 0 && !(sum.visible > 0)) continue;
     if (part.rays == 16 && e.members.empty() && sum.visible < sum.all)
@@ -229,8 +235,7 @@ int64_t DirectLight::look_closer(const Emitter& e, const OrientedPoint& point, W
   for (size_t first = 16; first < most; first += 16) {
     Batch batch;
     for (size_t k = first; k < first + 16; ++k) batch.aim_at(engine_, point, e, k);
-    const uint32_t seen = batch.trace(engine_);
-    for (int k = 0; k < 16; ++k) sum.add(batch.weight[k], seen >> k & 1);
+    batch.add_up(batch.trace(engine_), 0, 16, sum);
     rays += batch.rays;
   }
   return rays;
@@ -262,8 +267,7 @@ int64_t DirectLight::sample_near(NodeId root, const OrientedPoint& point, uint64
       batch.aim(engine_, point, {y, element.normal},
                 kernel(x, normal, y, element.normal) * part.area / part.weight);
     }
-    const uint32_t seen = batch.trace(engine_);
-    for (int k = 0; k < 16; ++k) sum.add(batch.weight[k], seen >> k & 1);
+    batch.add_up(batch.trace(engine_), 0, 16, sum);
     rays += batch.rays;
     if (!(sum.visible > 0) || !(sum.visible < sum.all)) break;
   }

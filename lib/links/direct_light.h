@@ -33,10 +33,6 @@ class DirectLight {
   struct Batch;
   struct Weights {  // of rays
     double all = 0, visible = 0;
-    void add(double weight, bool seen) {
-      all += weight;
-      if (seen) visible += weight;
-    }
   };
   double rays_for(double light, double variance) const;
   size_t rays_of_penumbra(double light) const;

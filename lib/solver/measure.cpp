@@ -18,9 +18,9 @@ namespace {
 // known to be far below the accuracy.
 constexpr size_t patches_of_a_batch = 512;
 constexpr int most_batches = 4;
+constexpr double precise_share = 0.35, precise_enough = 0.2;
 // Of a batch, each spread over all patches: after every one something is known.
 constexpr size_t parts_of_a_batch = 4;
-constexpr double precise_share = 0.35, precise_enough = 0.2;
 // Of each half of a patch; a point has one packet of shadow rays besides.
 constexpr int cosine_rays_of_a_point = 4;
 constexpr double points_at_one_percent = 64, least_points = 16, most_points = 256;
@@ -244,10 +244,11 @@ std::optional<ErrorEstimate> estimate_error(
         return tools.progress((batch + parts / parts_of_a_batch) / batches);
       };
       if (!measurement.measure(part, progress)) return std::nullopt;
-      if (so_far && batch == 0) so_far(measurement.error_of_parts(part + 1));
+      if (so_far && batch == 0 && part + 1 < parts_of_a_batch)
+        so_far(measurement.error_of_parts(part + 1));
     }
     static_cast<MeasuredError&>(estimate) = measurement.error();
-    if (so_far && batch > 0) so_far(estimate);
+    if (so_far) so_far(estimate);
     const double wanted = std::max(precise_share * estimate.error, precise_enough * accuracy);
     if (estimate.standard_error < wanted) break;
     const double short_by = estimate.standard_error / wanted;

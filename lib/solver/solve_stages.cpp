@@ -21,12 +21,12 @@ namespace {
 // how much longer each round takes than the one before; and what nobody knows.
 constexpr double rounds_of_linking = 1.5, sweeps_of_rows = 0.05, growth_of_rounds = 2.6;
 constexpr TimeLeft::Expected unknown{-1};
-// Linking by rows again: what it took before tells more than its pace, which changes from step to
-// step.
-constexpr double pace_of_a_repetition_tells_from = 1;
-// Large tasks come first and leave most of their work to later passes of a round, so that its pace
-// promises too much.
-constexpr double pace_of_rounds_tells_from = 1;
+// What a stage took before, as far as it is known, tells more of the next time than the pace: that
+// of linking by rows changes from step to step, and in a round large tasks come first and leave
+// most of their work to later passes.
+TimeLeft::Expected as_before(double seconds) {
+  return seconds > 0 ? TimeLeft::Expected{seconds, 1} : unknown;
+}
 
 // Names of stages in the journal's key; a round of refinement is its number.
 constexpr uint64_t stage_of_linking = 0, stage_of_measuring = uint64_t{1} << 32;
@@ -72,8 +72,7 @@ void Solver::Run::begin_sweeps(int round) {
 bool Solver::Run::link() {
   const auto start = std::chrono::steady_clock::now();
   const double later = by_rows_ ? sweeps_of_rows : rounds_of_linking;
-  const TimeLeft::Expected expected{seconds_of_linking_, pace_of_a_repetition_tells_from};
-  clock_.begin("linking", seconds_of_linking_ > 0 ? expected : unknown,
+  clock_.begin("linking", as_before(seconds_of_linking_),
                [this, later](double seconds) { return later * seconds + of_measuring(); });
   begin_journal(stage_of_linking);
   const bool done = by_rows_                        ? link_by_rows()
@@ -135,9 +134,7 @@ bool Solver::Run::link_by_rows() {
 
 bool Solver::Run::round() {
   const int number = solution_.rounds_done + 1;
-  const TimeLeft::Expected expected{growth_of_rounds * seconds_of_round_,
-                                    pace_of_rounds_tells_from};
-  clock_.begin("refine", seconds_of_round_ > 0 ? expected : unknown,
+  clock_.begin("refine", as_before(growth_of_rounds * seconds_of_round_),
                [this, number](double seconds) {
                  return seconds_of_sweeps_ + of_later_rounds(number, seconds) + of_measuring();
                });
