@@ -2,13 +2,10 @@
 #include "stages/row_tracer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "base/frame.h"
-#include "base/low_discrepancy.h"
-#include "base/triangle_points.h"
 #include "links/element.h"
+#include "stages/element_rays.h"
 #include "stages/exchange.h"
 #include "stages/leaf_light.h"
 #include "stages/task_names.h"
@@ -23,63 +20,68 @@ constexpr int64_t rows_of_a_batch = 8192;
 class RowTracer {
  public:
   RowTracer(const State& state, const StageTools& tools, const RowSettings& settings,
-            const LightGrid& grid)
-      : state_(state), tools_(tools), settings_(settings), grid_(grid) {}
+            const LightGrid& grid, const BrightSpots& spots)
+      : state_(state), tools_(tools), settings_(settings), grid_(grid), spots_(spots) {}
 
-  // The links of one element, sorted by source, from so many rays; returns how many were traced.
-  int64_t trace(NodeId id, int wanted, std::vector<Link>& links) {
+  // The links of one element, sorted by source, from so many rays and those that bright spots sent
+  // there; returns how many were traced. What its rays don't meet is shared out among what they do:
+  // each stands for as much of what no spot fills.
+  int64_t trace(NodeId id, int wanted, Span<const Link> of_spots, std::vector<Link>& links) {
     const Forest& forest = state_.forest;
     const Node& node = forest.nodes[id];
-    const Surface& surface = forest.surfaces[node.surface];
-    const Triangle corners = forest.triangle(node);
-    const Frame frame(surface.normal);
-    const LowDiscrepancy points(mix(key_of(forest, node), settings_.seed, 0x726f77u));
-    // Points on a sealed part see nothing: the row is that of the exposed part.
-    const int most = node.exposed < 1 ? 64 * wanted : wanted;
+    ElementRays rays(forest, tools_.exposure, tools_.engine, node,
+                     mix(key_of(forest, node), settings_.seed, 0x726f77u), wanted);
     hits_.clear();
+    of_spots_ = 0;
     int counted = 0;
-    for (int k = 0; k < most && counted < wanted; ++k) {
-      double p[4];
-      points.point(static_cast<uint32_t>(k), p);
-      Ray ray;
-      even_in_triangle(p[0], p[1], &ray.x, &ray.y);
-      const Vec3 on = corners.at(ray.x, ray.y);
-      if (node.exposed < 1 && tools_.exposure.sealed(surface.patch, surface.side, on)) continue;
-      ++counted;
-      met_[together_] = tools_.engine.nearest(on + surface.normal * tools_.engine.offset(),
-                                              frame.cosine_direction(p[2], p[3]), 0);
+    for (ElementRays::Ray ray; rays.next(ray); ++counted) {
+      met_[together_] = tools_.engine.nearest(ray.origin, ray.direction, 0);
       ray_[together_++] = ray;
-      if (together_ == Forest::most_met) take_hits(node);
+      if (together_ == Forest::most_met) take_hits(id);
     }
-    take_hits(node);
+    take_hits(id);
+    double all = counted;
+    if (!of_spots.empty() || of_spots_ > 0) {
+      double weight = 0;
+      for (const Link& link : of_spots) weight += static_cast<double>(link.weight);
+      all = weight < 1 ? (counted - of_spots_) / (1 - weight) : 0;
+    }
+    const size_t begin = links.size();
     std::sort(hits_.begin(), hits_.end());
-    for (size_t k = 0; k < hits_.size();) {
+    for (size_t k = 0; k < hits_.size() && all > 0;) {
       const size_t first = k;
       while (k < hits_.size() && hits_[k] == hits_[first]) ++k;
-      links.push_back({hits_[first], static_cast<float>(static_cast<double>(k - first) / counted)});
+      links.push_back({hits_[first], static_cast<float>(static_cast<double>(k - first) / all)});
     }
+    const auto by_source = [](const Link& a, const Link& b) { return a.source < b.source; };
+    const auto middle = static_cast<std::ptrdiff_t>(links.size());
+    links.insert(links.end(), of_spots.begin(), of_spots.end());
+    std::inplace_merge(links.begin() + static_cast<std::ptrdiff_t>(begin), links.begin() + middle,
+                       links.end(), by_source);
     return counted;
   }
 
  private:
-  struct Ray {
-    double x, y;  // where in the element it begins
-  };
-
   // The links of the rays that have been traced since the last time.
-  void take_hits(const Node& node) {
+  void take_hits(NodeId cell) {
     const Forest& forest = state_.forest;
+    const Node& node = forest.nodes[cell];
     NodeId source[Forest::most_met];
     forest.leaves_met({met_, together_}, source);
-    for (size_t k = 0; k < together_; ++k)
-      if (source[k] >= 0 && !comes_by_links(node, ray_[k], source[k]) &&
-          !is_under_a_back(met_[k], source[k]))
+    for (size_t k = 0; k < together_; ++k) {
+      if (source[k] < 0 || comes_by_links(node, ray_[k], source[k]) ||
+          is_under_a_back(met_[k], source[k]))
+        continue;
+      if (spots_.sends_to(source[k], cell))
+        ++of_spots_;
+      else
         hits_.push_back(source[k]);
+    }
     together_ = 0;
   }
 
   // Light from there to this leaf has links of its own.
-  bool comes_by_links(const Node& node, const Ray& ray, NodeId source) const {
+  bool comes_by_links(const Node& node, const ElementRays::Ray& ray, NodeId source) const {
     const Forest& forest = state_.forest;
     const int32_t emitter = grid_.emitters().of_node(forest.nodes[source].surface);
     if (emitter < 0) return false;
@@ -102,9 +104,11 @@ class RowTracer {
   const StageTools& tools_;
   const RowSettings& settings_;
   const LightGrid& grid_;
+  const BrightSpots& spots_;
   std::vector<NodeId> hits_;
+  int of_spots_ = 0;  // rays that met one
   Hit met_[Forest::most_met];
-  Ray ray_[Forest::most_met] = {};
+  ElementRays::Ray ray_[Forest::most_met] = {};
   size_t together_ = 0;
 };
 
@@ -122,7 +126,7 @@ void put(State& state, const StageTools& tools, const std::vector<Span<const Lin
 }  // namespace
 
 bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
-                const LightGrid& grid, const std::vector<NodeId>& cells,
+                const LightGrid& grid, const BrightSpots& spots, const std::vector<NodeId>& cells,
                 const std::vector<int>& rays_of_cell, StageMemory& memory) {
   const Forest& forest = state.forest;
   const int64_t count = static_cast<int64_t>(cells.size());
@@ -145,7 +149,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     going_on = state.journal.for_each(
         tools.team, tasks,
         [&](int64_t task, int) {
-          RowTracer tracer(state, tools, settings, grid);
+          RowTracer tracer(state, tools, settings, grid, spots);
           std::vector<Link>& links = links_of_task[static_cast<size_t>(task)];
           size_t count_of[rows_of_a_task] = {};
           const int64_t from = first_of(task), to = first_of(task + 1);
@@ -155,7 +159,9 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
             const size_t before = links.size();
             is_new[k - first] = !state.journal.known_run(name_of_element(forest, cells[k]),
                                                          is_element, links, rays[k - first]);
-            if (is_new[k - first]) rays[k - first] = tracer.trace(cells[k], rays_of_cell[k], links);
+            if (is_new[k - first])
+              rays[k - first] = tracer.trace(cells[k], rays_of_cell[k],
+                                             spots.links_to(static_cast<size_t>(k)), links);
             count_of[k - from] = links.size() - before;
           }
           links.shrink_to_fit();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "links/light_grid.h"
+#include "stages/bright_spots.h"
 #include "stages/rows.h"
 #include "stages/state_memory.h"
 
@@ -15,7 +16,7 @@ namespace hrad {
 // it meets, of weight 1/rays; one that meets nothing, a blocker, a black back, or an emitter whose
 // light comes by links of its own, is none. False: stopped.
 bool trace_rows(State& state, const StageTools& tools, const RowSettings& settings,
-                const LightGrid& grid, const std::vector<NodeId>& cells,
+                const LightGrid& grid, const BrightSpots& spots, const std::vector<NodeId>& cells,
                 const std::vector<int>& rays_of_cell, StageMemory& memory);
 
 }  // namespace hrad

@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "machine/pieces.h"
 #include "stages/exchange.h"
+#include "stages/bright_spots.h"
 #include "stages/gather.h"
 #include "stages/row_mesh.h"
 #include "stages/row_tracer.h"
@@ -68,9 +69,11 @@ std::vector<int> rays_by_area(const State& state, const StageTools& tools,
 }
 
 // Variance of what one ray of a row brings.
-double variance_of(LinkRun row, const Brightness& light) {
+double variance_of(const State& state, NodeId cell, const Brightness& light,
+                   const BrightSpots& spots) {
   double mean = 0, square = 0;
-  for (const Link& link : row.links()) {
+  for (const Link& link : state.links[cell].links()) {
+    if (spots.sends_to(link.source, cell)) continue;
     const double weight = link.weight, brightness = light.of_node[link.source];
     mean += weight * brightness;
     square += weight * brightness * brightness;
@@ -82,7 +85,8 @@ double variance_of(LinkRun row, const Brightness& light) {
 // What the few pilot rays of a cell missed those of the others on its surface may have met.
 // Others' cells have no rows here, and are left out.
 std::vector<int> rays_by_variance(const State& state, const StageTools& tools,
-                                  const RowSettings& settings, const Brightness& light) {
+                                  const RowSettings& settings, const Brightness& light,
+                                  const BrightSpots& spots) {
   const Forest& forest = state.forest;
   std::vector<double> own(state.cells.size(), 0.0);
   std::vector<double> sum(static_cast<size_t>(forest.surface_count()), 0.0), area = sum;
@@ -90,7 +94,7 @@ std::vector<int> rays_by_variance(const State& state, const StageTools& tools,
     return tools.exchange.mine(forest.nodes[state.cells[k]].surface);
   };
   for_each_thing(tools.team, own.size(), [&](size_t k) {
-    if (is_mine(k)) own[k] = variance_of(state.links[state.cells[k]], light);
+    if (is_mine(k)) own[k] = variance_of(state, state.cells[k], light, spots);
   });
   for (size_t k = 0; k < own.size(); ++k) {
     if (!is_mine(k)) continue;
@@ -171,12 +175,16 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
   pilot.seed = mix(settings.seed, 0x70696c6f74u);
   std::vector<NodeId> cells = state.cells;
   std::vector<int> rays;
+  Brightness seen = light_of_pilot_rows(state, tools);
   for (int round = 0; !cells.empty(); ++round) {
+    BrightSpots spots(state, tools, settings, seen, emitters);
     const double step = (piloted - meshed) / pilot_rounds, from = meshed + round * step;
-    if (!trace_rows(state, tools.of_part(from, from + step), pilot, grid, cells,
+    const StageTools part = tools.of_part(from, from + step);
+    if (!spots.trace(state, part, pilot_share, cells, memory) ||
+        !trace_rows(state, part, pilot, grid, spots, cells,
                     rays_by_area(state, tools, pilot, cells), memory))
       return Outcome::stopped;
-    const Brightness seen = light_of_pilot_rows(state, tools);
+    seen = light_of_pilot_rows(state, tools);
     if (round == 0 && share == 1) {
       const double found = light_over_expected(state, expected);
       if (found > 0 && found < far_less) {
@@ -184,12 +192,15 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
         return Outcome::too_dark;
       }
     }
-    rays = rays_by_variance(state, tools, settings, seen);
+    rays = rays_by_variance(state, tools, settings, seen, spots);
     if (round + 1 == pilot_rounds) break;
     if (!mesh.divide_cells(seen, cells)) return Outcome::stopped;
     pull_exposure(state.forest);
   }
-  if (!trace_rows(state, tools.of_part(piloted, 1), settings, grid, state.cells, rays, memory))
+  BrightSpots spots(state, tools, settings, seen, emitters);
+  const StageTools last = tools.of_part(piloted, 1);
+  if (!spots.trace(state, last, 1, state.cells, memory) ||
+      !trace_rows(state, last, settings, grid, spots, state.cells, rays, memory))
     return Outcome::stopped;
   mesh.keep_what_is_named();
   reset_to_emission(state);
@@ -204,6 +215,10 @@ int RowSettings::rays_of(double area) const {
   return std::max(
       least_rays,
       static_cast<int>(std::ceil(rays_of_cell * std::sqrt(std::min(1.0, area / cell_area)))));
+}
+
+double RowSettings::power_of_spot_rays() const {
+  return ordinary_deviation * ordinary_deviation / rays_of_cell;
 }
 
 bool link_rows(State& state, const StageTools& tools, const RowSettings& settings) {

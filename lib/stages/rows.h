@@ -28,6 +28,7 @@ struct RowSettings {
 
   // Of the row of a cell of this area, before it is known what it sees.
   int rays_of(double area) const;
+  double power_of_spot_rays() const;
 };
 
 // Makes mesh, rows and direct light from a state of roots alone whose exposure is known; leaves

@@ -1,0 +1,172 @@
+// Which leaves are spots, and what their rays meet. Floor 7 (stages).
+#include "stages/bright_spots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "machine/pieces.h"
+#include "stages/element_rays.h"
+#include "stages/exchange.h"
+#include "stages/task_names.h"
+
+namespace hrad {
+namespace {
+
+// What a leaf must bring where it fills all of the view, in units of the mean irradiance.
+constexpr double bright_spot = 8;
+// A ray from a spot to a cell of cell_area brings so much times what a ray of its row may deviate
+// by: then as many as make up the mean irradiance deviate like the row.
+constexpr double most_rays_of_a_spot = 1 << 20;
+// Between middles, in their radii: what is nearer fills so much of the view that rows find it.
+constexpr double far_apart = 2;
+
+struct Ball {
+  Vec3 center;
+  double radius;
+};
+
+Ball ball_around(const Triangle& t) {
+  const Vec3 center = t.centroid();
+  return {center, std::max({length(t.a - center), length(t.b - center), length(t.c - center)})};
+}
+
+}  // namespace
+
+BrightSpots::BrightSpots(const State& state, const StageTools& tools, const RowSettings& settings,
+                         const Brightness& brightness, const Emitters& emitters)
+    : state_(state), seed_(mix(settings.seed, 0x73706f74u)), settings_(settings) {
+  const Forest& forest = state.forest;
+  const auto brightness_of = [&](NodeId id) {
+    while (static_cast<size_t>(id) >= brightness.of_node.size()) id = forest.nodes[id].parent;
+    return static_cast<double>(brightness.of_node[id]);
+  };
+  spots_ = gathered<NodeId>(
+      tools.team, forest.nodes.size(), [&](size_t k, std::vector<NodeId>& some) {
+        const NodeId id = static_cast<NodeId>(k);
+        const Node& node = forest.nodes[k];
+        if (!Forest::is_cluster(node) && forest.is_leaf(id) && node.exposed > 0 &&
+            emitters.of_node(node.surface) < 0 && brightness_of(id) > bright_spot)
+          some.push_back(id);
+      });
+  if (spots_.empty()) return;
+  rays_.assign(forest.nodes.size(), 0);
+  for (NodeId spot : spots_)
+    rays_[spot] = static_cast<int32_t>(std::ceil(std::min(
+        most_rays_of_a_spot, brightness_of(spot) * exposed_area(spot) /
+                                 (settings.power_of_spot_rays() * settings.cell_area))));
+}
+
+double BrightSpots::exposed_area(NodeId id) const {
+  const Node& node = state_.forest.nodes[id];
+  return state_.forest.area(node) * node.exposed;
+}
+
+bool BrightSpots::sends_to(NodeId leaf, NodeId cell) const {
+  if (rays_.empty() || rays_[leaf] == 0) return false;
+  const Forest& forest = state_.forest;
+  // Rays per area.
+  if (rays_[leaf] * exposed_area(cell) <=
+      settings_.rays_of(forest.area(forest.nodes[cell])) * exposed_area(leaf))
+    return false;
+  const Ball spot = ball_around(forest.triangle(forest.nodes[leaf]));
+  const Ball around = ball_around(forest.triangle(forest.nodes[cell]));
+  return length(spot.center - around.center) > far_apart * (spot.radius + around.radius);
+}
+
+// met: cells, and for each the share of the rays that arrive there.
+void BrightSpots::send(const StageTools& tools, NodeId spot, int rays,
+                       std::vector<Link>& met) const {
+  const Forest& forest = state_.forest;
+  const Node& node = forest.nodes[spot];
+  std::vector<NodeId> cells;
+  int counted = 0;
+  Hit hits[Forest::most_met];
+  size_t together = 0;
+  const auto take_hits = [&] {
+    NodeId leaf[Forest::most_met];
+    forest.leaves_met({hits, together}, leaf);
+    for (size_t k = 0; k < together; ++k) {
+      NodeId cell = leaf[k];
+      while (cell >= 0 && cell_of_[cell] < 0) cell = forest.nodes[cell].level > 0 ? forest.nodes[cell].parent : -1;
+      if (cell < 0 || !sends_to(spot, cell)) continue;
+      const Surface& surface = forest.surfaces[forest.nodes[cell].surface];
+      if (forest.nodes[cell].exposed < 1 &&
+          tools.exposure.sealed(surface.patch, surface.side,
+                                forest.scene->triangle(hits[k].patch).at(hits[k].u, hits[k].v)))
+        continue;
+      cells.push_back(cell);
+    }
+    together = 0;
+  };
+  ElementRays from(forest, tools.exposure, tools.engine, node, mix(key_of(forest, node), seed_),
+                   rays);
+  for (ElementRays::Ray ray; from.next(ray); ++counted) {
+    hits[together++] = tools.engine.nearest(ray.origin, ray.direction, 0);
+    if (together == Forest::most_met) take_hits();
+  }
+  take_hits();
+  std::sort(cells.begin(), cells.end());
+  for (size_t k = 0; k < cells.size();) {
+    const size_t first = k;
+    while (k < cells.size() && cells[k] == cells[first]) ++k;
+    met.push_back({cells[first], static_cast<float>(static_cast<double>(k - first) / counted)});
+  }
+}
+
+bool BrightSpots::take(KnownResult& known, std::vector<Link>& met) const {
+  std::vector<Link> list;
+  const auto is_cell = [&](NodeId id) {
+    return id >= 0 && static_cast<size_t>(id) < cell_of_.size() && cell_of_[id] >= 0;
+  };
+  if (!known.take_list(list) || !known.at_end() || !are_links(list, is_cell)) return false;
+  met = std::move(list);
+  return true;
+}
+
+bool BrightSpots::trace(State& state, const StageTools& tools, int one_in,
+                        const std::vector<NodeId>& cells, StageMemory& memory) {
+  if (spots_.empty()) return true;
+  const Forest& forest = state.forest;
+  cell_of_.assign(forest.nodes.size(), -1);
+  for (size_t k = 0; k < cells.size(); ++k)
+    if (forest.nodes[cells[k]].exposed > 0) cell_of_[cells[k]] = static_cast<int32_t>(k);
+  std::vector<NodeId> own;
+  for (NodeId spot : spots_)
+    if (tools.exchange.mine(forest.nodes[spot].surface)) own.push_back(spot);
+  std::vector<std::vector<Link>> met(own.size());
+  const auto rays_of = [&](NodeId spot) { return (rays_[spot] + one_in - 1) / one_in; };
+  const bool going_on = state.journal.next_pass_of(
+      tools.team, own.size(),
+      {[&](size_t k) { return name_of_element(forest, own[k]); },
+       [&](size_t k, KnownResult& known) { return take(known, met[k]); },
+       [&](size_t k, int) {
+         send(tools, own[k], rays_of(own[k]), met[k]);
+         memory.take(static_cast<int64_t>(met[k].size() * (sizeof(Link) + 2 * sizeof(Arrival))),
+                     "rays from bright spots");
+       },
+       [&](size_t k, Bytes& bytes) { put_list(bytes, Span<const Link>(met[k].data(), met[k].size())); }},
+      [&](int64_t) { return tools.progress(0); });
+  if (!tools.exchange.all_go_on(going_on)) return false;
+  std::vector<Arrival> arrivals;
+  for (size_t k = 0; k < own.size(); ++k) {
+    state.rays += rays_of(own[k]);
+    for (const Link& share : met[k]) {
+      const NodeId cell = share.source;
+      const double weight = share.weight * exposed_area(own[k]) / exposed_area(cell);
+      arrivals.push_back({cell_of_[cell], {own[k], static_cast<float>(std::min(1.0, weight))}});
+    }
+  }
+  tools.exchange.unite(arrivals);
+  std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.link.source < b.link.source;
+  });
+  first_.assign(cells.size() + 1, 0);
+  for (const Arrival& arrival : arrivals) ++first_[static_cast<size_t>(arrival.cell) + 1];
+  for (size_t k = 0; k < cells.size(); ++k) first_[k + 1] += first_[k];
+  links_.clear();
+  for (const Arrival& arrival : arrivals) links_.push_back(arrival.link);
+  return true;
+}
+
+}  // namespace hrad
