@@ -14,7 +14,7 @@ namespace hrad {
 namespace {
 
 // What a leaf must bring where it fills all of the view, in units of the mean irradiance.
-constexpr double bright_spot = 8;
+constexpr double bright_spot = 2;
 // A ray from a spot to a cell of cell_area brings so much times what a ray of its row may deviate
 // by: then as many as make up the mean irradiance deviate like the row.
 constexpr double most_rays_of_a_spot = 1 << 20;
