@@ -13,10 +13,10 @@
 namespace hrad {
 namespace {
 
-// What a leaf must bring where it fills all of the view, in units of the mean irradiance.
-constexpr double bright_spot = 2;
-// A ray from a spot to a cell of cell_area brings so much times what a ray of its row may deviate
-// by: then as many as make up the mean irradiance deviate like the row.
+// What a leaf must shine over, in units of the mean irradiance: at the most and at the least, and
+// in times the mean of all that isn't a spot. Where a few spots have most of the light, noise that
+// is little beside them would be much on all else.
+constexpr double bright_spot = 2, least_bright_spot = 0.125, times_the_rest = 8;
 constexpr double most_rays_of_a_spot = 1 << 20;
 // Between middles, in their radii: what is nearer fills so much of the view that rows find it.
 constexpr double far_apart = 2;
@@ -37,24 +37,39 @@ BrightSpots::BrightSpots(const State& state, const StageTools& tools, const RowS
                          const Brightness& brightness, const Emitters& emitters)
     : state_(state), seed_(mix(settings.seed, 0x73706f74u)), settings_(settings) {
   const Forest& forest = state.forest;
-  const auto brightness_of = [&](NodeId id) {
-    while (static_cast<size_t>(id) >= brightness.of_node.size()) id = forest.nodes[id].parent;
-    return static_cast<double>(brightness.of_node[id]);
-  };
-  spots_ = gathered<NodeId>(
-      tools.team, forest.nodes.size(), [&](size_t k, std::vector<NodeId>& some) {
+  const std::vector<NodeId> leaves =
+      gathered<NodeId>(tools.team, forest.nodes.size(), [&](size_t k, std::vector<NodeId>& some) {
         const NodeId id = static_cast<NodeId>(k);
         const Node& node = forest.nodes[k];
         if (!Forest::is_cluster(node) && forest.is_leaf(id) && node.exposed > 0 &&
-            emitters.of_node(node.surface) < 0 && brightness_of(id) > bright_spot)
+            emitters.of_node(node.surface) < 0)
           some.push_back(id);
       });
-  if (spots_.empty()) return;
-  rays_.assign(forest.nodes.size(), 0);
-  for (NodeId spot : spots_)
-    rays_[spot] = static_cast<int32_t>(std::ceil(std::min(
-        most_rays_of_a_spot, brightness_of(spot) * exposed_area(spot) /
-                                 (settings.power_of_spot_rays() * settings.cell_area))));
+  std::vector<float> light(leaves.size());
+  for_each_thing(tools.team, light.size(), [&](size_t k) {
+    NodeId known = leaves[k];
+    while (static_cast<size_t>(known) >= brightness.of_node.size())
+      known = forest.nodes[known].parent;
+    light[k] = brightness.of_node[known];
+  });
+  tools.exchange.share(light, [&](size_t k) { return forest.nodes[leaves[k]].surface; });
+  double rest = 0, area = 0;
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    area += exposed_area(leaves[k]);
+    if (light[k] <= bright_spot) rest += exposed_area(leaves[k]) * static_cast<double>(light[k]);
+  }
+  const double least =
+      area > 0 ? std::min(bright_spot, std::max(least_bright_spot, times_the_rest * rest / area))
+               : bright_spot;
+  const double power =
+      settings.power_of_spot_rays() * settings.cell_area * std::sqrt(least / bright_spot);
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    if (!(static_cast<double>(light[k]) > least)) continue;
+    rays_.resize(forest.nodes.size(), 0);
+    rays_[leaves[k]] = static_cast<int32_t>(std::ceil(std::min(
+        most_rays_of_a_spot, static_cast<double>(light[k]) * exposed_area(leaves[k]) / power)));
+    spots_.push_back(leaves[k]);
+  }
 }
 
 double BrightSpots::exposed_area(NodeId id) const {
@@ -74,6 +89,17 @@ bool BrightSpots::sends_to(NodeId leaf, NodeId cell) const {
   return length(spot.center - around.center) > far_apart * (spot.radius + around.radius);
 }
 
+// Of those that are traced for, -1: the leaf lies in none.
+NodeId BrightSpots::cell_around(NodeId leaf) const {
+  NodeId id = leaf;
+  while (cell_of_[id] < 0) {
+    const Node& node = state_.forest.nodes[id];
+    if (node.level == 0) return -1;
+    id = node.parent;
+  }
+  return id;
+}
+
 // met: cells, and for each the share of the rays that arrive there.
 void BrightSpots::send(const StageTools& tools, NodeId spot, int rays,
                        std::vector<Link>& met) const {
@@ -87,8 +113,7 @@ void BrightSpots::send(const StageTools& tools, NodeId spot, int rays,
     NodeId leaf[Forest::most_met];
     forest.leaves_met({hits, together}, leaf);
     for (size_t k = 0; k < together; ++k) {
-      NodeId cell = leaf[k];
-      while (cell >= 0 && cell_of_[cell] < 0) cell = forest.nodes[cell].level > 0 ? forest.nodes[cell].parent : -1;
+      const NodeId cell = leaf[k] < 0 ? -1 : cell_around(leaf[k]);
       if (cell < 0 || !sends_to(spot, cell)) continue;
       const Surface& surface = forest.surfaces[forest.nodes[cell].surface];
       if (forest.nodes[cell].exposed < 1 &&
@@ -145,7 +170,9 @@ bool BrightSpots::trace(State& state, const StageTools& tools, int one_in,
          memory.take(static_cast<int64_t>(met[k].size() * (sizeof(Link) + 2 * sizeof(Arrival))),
                      "rays from bright spots");
        },
-       [&](size_t k, Bytes& bytes) { put_list(bytes, Span<const Link>(met[k].data(), met[k].size())); }},
+       [&](size_t k, Bytes& bytes) {
+         put_list(bytes, Span<const Link>(met[k].data(), met[k].size()));
+       }},
       [&](int64_t) { return tools.progress(0); });
   if (!tools.exchange.all_go_on(going_on)) return false;
   std::vector<Arrival> arrivals;

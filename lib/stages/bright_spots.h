@@ -37,6 +37,7 @@ class BrightSpots {
     int32_t cell;  // which of those that are traced for
     Link link;
   };
+  NodeId cell_around(NodeId leaf) const;
   void send(const StageTools& tools, NodeId spot, int rays, std::vector<Link>& met) const;
   bool take(KnownResult& known, std::vector<Link>& met) const;
   double exposed_area(NodeId id) const;
@@ -45,9 +46,9 @@ class BrightSpots {
   const uint64_t seed_;
   const RowSettings settings_;
   std::vector<NodeId> spots_;
-  std::vector<int32_t> rays_;      // per node, of spots; empty: there are none
-  std::vector<int32_t> cell_of_;   // per node, -1: not one of those that are traced for
-  std::vector<size_t> first_;      // per cell and one more
+  std::vector<int32_t> rays_;     // per node, of spots; empty: there are none
+  std::vector<int32_t> cell_of_;  // per node, -1: not one of those that are traced for
+  std::vector<size_t> first_;     // per cell and one more
   std::vector<Link> links_;
 };
 

@@ -7,8 +7,8 @@
 
 #include "base/hash.h"
 #include "machine/pieces.h"
-#include "stages/exchange.h"
 #include "stages/bright_spots.h"
+#include "stages/exchange.h"
 #include "stages/gather.h"
 #include "stages/row_mesh.h"
 #include "stages/row_tracer.h"

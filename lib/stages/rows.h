@@ -28,6 +28,8 @@ struct RowSettings {
 
   // Of the row of a cell of this area, before it is known what it sees.
   int rays_of(double area) const;
+  // What a ray from a bright spot (bright_spots.h) brings to a cell of cell_area, in units of the
+  // mean irradiance: as many as make that up deviate like the row of the cell.
   double power_of_spot_rays() const;
 };
 
