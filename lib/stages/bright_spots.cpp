@@ -18,9 +18,8 @@ namespace {
 // is little beside them would be much on all else.
 constexpr double bright_spot = 2, least_bright_spot = 0.125, times_the_rest = 8;
 constexpr double most_rays_of_a_spot = 1 << 20;
-// What may fill more of the view is found by rows: spots over this share of the cell's area that
-// are no farther from it, between middles, than so many times their radii.
-constexpr double small_spot = 1.0 / 16, far_apart = 2;
+// Between middles, in their radii: what is nearer fills so much of the view that rows find it.
+constexpr double far_apart = 2;
 
 struct Ball {
   Vec3 center;
@@ -83,11 +82,10 @@ double BrightSpots::exposed_area(NodeId id) const {
 bool BrightSpots::sends_to(NodeId leaf, NodeId cell) const {
   if (rays_.empty() || rays_[leaf] == 0) return false;
   const Forest& forest = state_.forest;
-  const double of_leaf = exposed_area(leaf), of_cell = exposed_area(cell);
   // Rays per area.
-  if (rays_[leaf] * of_cell <= settings_.rays_of(forest.area(forest.nodes[cell])) * of_leaf)
+  if (rays_[leaf] * exposed_area(cell) <=
+      settings_.rays_of(forest.area(forest.nodes[cell])) * exposed_area(leaf))
     return false;
-  if (of_leaf <= small_spot * of_cell) return true;
   const Ball spot = ball_around(forest.triangle(forest.nodes[leaf]));
   const Ball around = ball_around(forest.triangle(forest.nodes[cell]));
   return length(spot.center - around.center) > far_apart * (spot.radius + around.radius);
