@@ -12,12 +12,16 @@ namespace hrad_test {
 using namespace hrad;
 
 struct Rows {
-  explicit Rows(Scene s, RowSettings given = {}) : bench(std::move(s)), settings(given) {
+  explicit Rows(Scene s, RowSettings given = {}, int threads = 2)
+      : bench(std::move(s), threads), settings(given) {
     double area = 0;
     for (const Surface& surface : bench.state.forest.surfaces) area += surface.area;
     settings.cell_area = area / 500;
     settings.least_cell_area = settings.cell_area / 256;
     settings.min_area = settings.cell_area / 1024;
+    expose_roots();
+  }
+  void expose_roots() {
     const LinkSampler sampler = bench.sampler();
     for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
   }
