@@ -102,7 +102,7 @@ NodeId BrightSpots::cell_around(NodeId leaf) const {
   return id;
 }
 
-// met: cells, and for each the share of the rays that arrive there.
+// Appends to met the cells where rays arrive, each with its share of them.
 void BrightSpots::send(const StageTools& tools, NodeId spot, int rays,
                        std::vector<Link>& met) const {
   const Forest& forest = state_.forest;
@@ -155,6 +155,7 @@ bool BrightSpots::trace(State& state, const StageTools& tools, int one_in,
                         const std::vector<NodeId>& cells, StageMemory& memory) {
   if (spots_.empty()) return true;
   const Forest& forest = state.forest;
+  memory.take(static_cast<int64_t>(2 * forest.nodes.size() * sizeof(int32_t)), "bright spots");
   cell_of_.assign(forest.nodes.size(), -1);
   for (size_t k = 0; k < cells.size(); ++k)
     if (forest.nodes[cells[k]].exposed > 0) cell_of_[cells[k]] = static_cast<int32_t>(k);
@@ -187,15 +188,22 @@ bool BrightSpots::trace(State& state, const StageTools& tools, int one_in,
     }
   }
   tools.exchange.unite(arrivals);
+  deal_out(arrivals, cells.size());
+  return true;
+}
+
+// To the cells, so many.
+void BrightSpots::deal_out(std::vector<Arrival>& arrivals, size_t cells) {
   std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.link.source < b.link.source;
   });
-  first_.assign(cells.size() + 1, 0);
-  for (const Arrival& arrival : arrivals) ++first_[static_cast<size_t>(arrival.cell) + 1];
-  for (size_t k = 0; k < cells.size(); ++k) first_[k + 1] += first_[k];
+  first_.assign(cells + 1, 0);
   links_.clear();
-  for (const Arrival& arrival : arrivals) links_.push_back(arrival.link);
-  return true;
+  for (const Arrival& arrival : arrivals) {
+    ++first_[static_cast<size_t>(arrival.cell) + 1];
+    links_.push_back(arrival.link);
+  }
+  for (size_t k = 0; k < cells; ++k) first_[k + 1] += first_[k];
 }
 
 }  // namespace hrad

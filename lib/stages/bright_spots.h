@@ -40,6 +40,7 @@ class BrightSpots {
   NodeId cell_around(NodeId leaf) const;
   void send(const StageTools& tools, NodeId spot, int rays, std::vector<Link>& met) const;
   bool take(KnownResult& known, std::vector<Link>& met) const;
+  void deal_out(std::vector<Arrival>& arrivals, size_t cells);
   double exposed_area(NodeId id) const;
 
   const State& state_;

@@ -23,16 +23,16 @@ class RowTracer {
             const LightGrid& grid, const BrightSpots& spots)
       : state_(state), tools_(tools), settings_(settings), grid_(grid), spots_(spots) {}
 
-  // The links of one element, sorted by source, from so many rays and those that bright spots sent
-  // there; returns how many were traced. What its rays don't meet is shared out among what they do:
-  // each stands for as much of what no spot fills.
+  // The links of one element, sorted by source: those of bright spots, and from so many rays what
+  // these leave of its view, of which each ray that met none has an equal part. Returns how many
+  // rays were traced.
   int64_t trace(NodeId id, int wanted, Span<const Link> of_spots, std::vector<Link>& links) {
     const Forest& forest = state_.forest;
     const Node& node = forest.nodes[id];
     ElementRays rays(forest, tools_.exposure, tools_.engine, node,
                      mix(key_of(forest, node), settings_.seed, 0x726f77u), wanted);
     hits_.clear();
-    of_spots_ = 0;
+    met_spots_ = 0;
     int counted = 0;
     for (ElementRays::Ray ray; rays.next(ray); ++counted) {
       met_[together_] = tools_.engine.nearest(ray.origin, ray.direction, 0);
@@ -40,24 +40,25 @@ class RowTracer {
       if (together_ == Forest::most_met) take_hits(id);
     }
     take_hits(id);
-    double all = counted;
-    if (!of_spots.empty() || of_spots_ > 0) {
-      double weight = 0;
-      for (const Link& link : of_spots) weight += static_cast<double>(link.weight);
-      all = weight < 1 ? (counted - of_spots_) / (1 - weight) : 0;
-    }
+    double of_view = 0;  // the spots' part
+    for (const Link& link : of_spots) of_view += static_cast<double>(link.weight);
+    // Chance must not make more of it than there is.
+    const double less = of_view > 1 ? 1 / of_view : 1;
+    const double rays_of_all = (counted - met_spots_) / (1 - std::min(1.0, of_view));
     const size_t begin = links.size();
     std::sort(hits_.begin(), hits_.end());
-    for (size_t k = 0; k < hits_.size() && all > 0;) {
+    for (size_t k = 0; k < hits_.size() && of_view < 1;) {
       const size_t first = k;
       while (k < hits_.size() && hits_[k] == hits_[first]) ++k;
-      links.push_back({hits_[first], static_cast<float>(static_cast<double>(k - first) / all)});
+      links.push_back(
+          {hits_[first], static_cast<float>(static_cast<double>(k - first) / rays_of_all)});
     }
-    const auto by_source = [](const Link& a, const Link& b) { return a.source < b.source; };
     const auto middle = static_cast<std::ptrdiff_t>(links.size());
-    links.insert(links.end(), of_spots.begin(), of_spots.end());
+    for (const Link& link : of_spots)
+      links.push_back({link.source, static_cast<float>(less * static_cast<double>(link.weight))});
     std::inplace_merge(links.begin() + static_cast<std::ptrdiff_t>(begin), links.begin() + middle,
-                       links.end(), by_source);
+                       links.end(),
+                       [](const Link& a, const Link& b) { return a.source < b.source; });
     return counted;
   }
 
@@ -73,7 +74,7 @@ class RowTracer {
           is_under_a_back(met_[k], source[k]))
         continue;
       if (spots_.sends_to(source[k], cell))
-        ++of_spots_;
+        ++met_spots_;
       else
         hits_.push_back(source[k]);
     }
@@ -106,7 +107,7 @@ class RowTracer {
   const LightGrid& grid_;
   const BrightSpots& spots_;
   std::vector<NodeId> hits_;
-  int of_spots_ = 0;  // rays that met one
+  int met_spots_ = 0;  // so many rays
   Hit met_[Forest::most_met];
   ElementRays::Ray ray_[Forest::most_met] = {};
   size_t together_ = 0;

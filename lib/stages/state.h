@@ -65,8 +65,6 @@ struct State {
   MemoryBudget memory;  // of scene, ray engine, elements and links
 };
 
-class Exchange;
-
 // Where the three points of its own lie in a leaf, nullptr: it has none.
 inline const CornerLight::OwnPoint* own_points(const State& state, NodeId leaf) {
   if (state.forest.nodes[leaf].light_points != at_own_points) return nullptr;
