@@ -1,6 +1,7 @@
 // The Linking Stage by rows (design: `rows`): light straight from bright emitters on an adaptive
-// mesh of its own, everything else by rays from cells that are fine where reflected light varies.
-// There is nothing to refine afterwards. Floor 7 (stages).
+// mesh of its own, everything else by rays from cells that are fine where reflected light varies,
+// and from what is far brighter than all else. There is nothing to refine afterwards. Floor 7
+// (stages).
 #pragma once
 
 #include "stages/state.h"
