@@ -91,6 +91,12 @@ bool BrightSpots::sends_to(NodeId leaf, NodeId cell) const {
   return length(spot.center - around.center) > far_apart * (spot.radius + around.radius);
 }
 
+double BrightSpots::rays(int one_in) const {
+  double sum = 0;
+  for (NodeId spot : spots_) sum += rays_[spot];
+  return sum / one_in;
+}
+
 // Of those that are traced for, -1: the leaf lies in none.
 NodeId BrightSpots::cell_around(NodeId leaf) const {
   NodeId id = leaf;
@@ -176,7 +182,9 @@ bool BrightSpots::trace(State& state, const StageTools& tools, int one_in,
        [&](size_t k, Bytes& bytes) {
          put_list(bytes, Span<const Link>(met[k].data(), met[k].size()));
        }},
-      [&](int64_t) { return tools.progress(0); });
+      [&](int64_t done) {
+        return tools.progress(static_cast<double>(done) / static_cast<double>(own.size() + 1));
+      });
   if (!tools.exchange.all_go_on(going_on)) return false;
   std::vector<Arrival> arrivals;
   for (size_t k = 0; k < own.size(); ++k) {

@@ -23,9 +23,11 @@ class BrightSpots {
   // a matter of what they are, not of what was traced.
   bool sends_to(NodeId leaf, NodeId cell) const;
 
-  // Sends the rays of all spots, or of one in so many of them, out to these cells. False: stopped.
+  // Sends the rays of all spots, or one in so many of each, out to these cells. False: stopped.
   bool trace(State& state, const StageTools& tools, int one_in, const std::vector<NodeId>& cells,
              StageMemory& memory);
+  // About how many rays that are.
+  double rays(int one_in) const;
   // What arrived at the k-th of these cells, by source.
   Span<const Link> links_to(size_t k) const {
     if (first_.empty()) return {};
