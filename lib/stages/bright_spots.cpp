@@ -91,10 +91,10 @@ bool BrightSpots::sends_to(NodeId leaf, NodeId cell) const {
   return length(spot.center - around.center) > far_apart * (spot.radius + around.radius);
 }
 
-double BrightSpots::rays(int one_in) const {
+double BrightSpots::rays() const {
   double sum = 0;
   for (NodeId spot : spots_) sum += rays_[spot];
-  return sum / one_in;
+  return sum;
 }
 
 // Of those that are traced for, -1: the leaf lies in none.
@@ -109,8 +109,7 @@ NodeId BrightSpots::cell_around(NodeId leaf) const {
 }
 
 // Appends to met the cells where rays arrive, each with its share of them.
-void BrightSpots::send(const StageTools& tools, NodeId spot, int rays,
-                       std::vector<Link>& met) const {
+void BrightSpots::send(const StageTools& tools, NodeId spot, std::vector<Link>& met) const {
   const Forest& forest = state_.forest;
   const Node& node = forest.nodes[spot];
   std::vector<NodeId> cells;
@@ -133,7 +132,7 @@ void BrightSpots::send(const StageTools& tools, NodeId spot, int rays,
     together = 0;
   };
   ElementRays from(forest, tools.exposure, tools.engine, node, mix(key_of(forest, node), seed_),
-                   rays);
+                   rays_[spot]);
   for (ElementRays::Ray ray; from.next(ray); ++counted) {
     hits[together++] = tools.engine.nearest(ray.origin, ray.direction, 0);
     if (together == Forest::most_met) take_hits();
@@ -157,8 +156,8 @@ bool BrightSpots::take(KnownResult& known, std::vector<Link>& met) const {
   return true;
 }
 
-bool BrightSpots::trace(State& state, const StageTools& tools, int one_in,
-                        const std::vector<NodeId>& cells, StageMemory& memory) {
+bool BrightSpots::trace(State& state, const StageTools& tools, const std::vector<NodeId>& cells,
+                        StageMemory& memory) {
   if (spots_.empty()) return true;
   const Forest& forest = state.forest;
   memory.take(static_cast<int64_t>(2 * forest.nodes.size() * sizeof(int32_t)), "bright spots");
@@ -169,13 +168,12 @@ bool BrightSpots::trace(State& state, const StageTools& tools, int one_in,
   for (NodeId spot : spots_)
     if (tools.exchange.mine(forest.nodes[spot].surface)) own.push_back(spot);
   std::vector<std::vector<Link>> met(own.size());
-  const auto rays_of = [&](NodeId spot) { return (rays_[spot] + one_in - 1) / one_in; };
   const bool going_on = state.journal.next_pass_of(
       tools.team, own.size(),
       {[&](size_t k) { return name_of_element(forest, own[k]); },
        [&](size_t k, KnownResult& known) { return take(known, met[k]); },
        [&](size_t k, int) {
-         send(tools, own[k], rays_of(own[k]), met[k]);
+         send(tools, own[k], met[k]);
          memory.take(static_cast<int64_t>(met[k].size() * (sizeof(Link) + 2 * sizeof(Arrival))),
                      "rays from bright spots");
        },
@@ -188,7 +186,7 @@ bool BrightSpots::trace(State& state, const StageTools& tools, int one_in,
   if (!tools.exchange.all_go_on(going_on)) return false;
   std::vector<Arrival> arrivals;
   for (size_t k = 0; k < own.size(); ++k) {
-    state.rays += rays_of(own[k]);
+    state.rays += rays_[own[k]];
     for (const Link& share : met[k]) {
       const NodeId cell = share.source;
       const double weight = share.weight * exposed_area(own[k]) / exposed_area(cell);

@@ -23,11 +23,11 @@ class BrightSpots {
   // a matter of what they are, not of what was traced.
   bool sends_to(NodeId leaf, NodeId cell) const;
 
-  // Sends the rays of all spots, or one in so many of each, out to these cells. False: stopped.
-  bool trace(State& state, const StageTools& tools, int one_in, const std::vector<NodeId>& cells,
+  // Sends the rays of all spots out to these cells. False: stopped.
+  bool trace(State& state, const StageTools& tools, const std::vector<NodeId>& cells,
              StageMemory& memory);
   // About how many rays that are.
-  double rays(int one_in) const;
+  double rays() const;
   // What arrived at the k-th of these cells, by source.
   Span<const Link> links_to(size_t k) const {
     if (first_.empty()) return {};
@@ -40,7 +40,7 @@ class BrightSpots {
     Link link;
   };
   NodeId cell_around(NodeId leaf) const;
-  void send(const StageTools& tools, NodeId spot, int rays, std::vector<Link>& met) const;
+  void send(const StageTools& tools, NodeId spot, std::vector<Link>& met) const;
   bool take(KnownResult& known, std::vector<Link>& met) const;
   void deal_out(std::vector<Arrival>& arrivals, size_t cells);
   double exposed_area(NodeId id) const;

@@ -126,13 +126,12 @@ enum class Outcome { done, stopped, too_dark };
 
 // Of the rows of these cells what comes by rays from spots, and then by their own.
 bool trace_cells(State& state, const StageTools& tools, const RowSettings& settings,
-                 const LightGrid& grid, BrightSpots& spots, int one_in,
-                 const std::vector<NodeId>& cells, const std::vector<int>& rays_of_cell,
-                 StageMemory& memory) {
+                 const LightGrid& grid, BrightSpots& spots, const std::vector<NodeId>& cells,
+                 const std::vector<int>& rays_of_cell, StageMemory& memory) {
   double of_rows = 1;
   for (int rays : rays_of_cell) of_rows += rays;
-  const double of_spots = spots.rays(one_in), share = of_spots / (of_spots + of_rows);
-  return spots.trace(state, tools.of_part(0, share), one_in, cells, memory) &&
+  const double of_spots = spots.rays(), share = of_spots / (of_spots + of_rows);
+  return spots.trace(state, tools.of_part(0, share), cells, memory) &&
          trace_rows(state, tools.of_part(share, 1), settings, grid, spots, cells, rays_of_cell,
                     memory);
 }
@@ -190,10 +189,10 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
   std::vector<int> rays;
   Brightness seen = light_of_pilot_rows(state, tools);
   for (int round = 0; !cells.empty(); ++round) {
-    BrightSpots spots(state, tools, settings, seen, emitters);
+    BrightSpots spots(state, tools, pilot, seen, emitters);
     const double step = (piloted - meshed) / pilot_rounds, from = meshed + round * step;
     const StageTools part = tools.of_part(from, from + step);
-    if (!trace_cells(state, part, pilot, grid, spots, pilot_share, cells,
+    if (!trace_cells(state, part, pilot, grid, spots, cells,
                      rays_by_area(state, tools, pilot, cells), memory))
       return Outcome::stopped;
     seen = light_of_pilot_rows(state, tools);
@@ -211,7 +210,7 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
   }
   BrightSpots spots(state, tools, settings, seen, emitters);
   const StageTools last = tools.of_part(piloted, 1);
-  if (!trace_cells(state, last, settings, grid, spots, 1, state.cells, rays, memory))
+  if (!trace_cells(state, last, settings, grid, spots, state.cells, rays, memory))
     return Outcome::stopped;
   mesh.keep_what_is_named();
   reset_to_emission(state);
