@@ -430,8 +430,10 @@ HRAD_API hrad_status hrad_query_patches(const hrad_solver *solver, int32_t quant
 
 /* [C] A quantity at points of patches: point i lies at (1-u-v)*corner0 + u*corner1 + v*corner2 of
  * patch[i] with u = uv[2*i], v = uv[2*i+1], u, v >= 0, u+v <= 1 (with a margin of 1e-9). Linear
- * reconstruction from the leaves; a sealed point answers B = E, H = 0. count*bands values. Errors:
- * ARGUMENT for ranges; STATE before a solve. */
+ * reconstruction from the leaves; by rows, reflected light on facets much smaller than the cells of
+ * the scene is evened out over those that meet in one plane or at 20 degrees or less, and their
+ * mean stays. A sealed point answers B = E, H = 0. count*bands values. Errors: ARGUMENT for ranges;
+ * STATE before a solve. */
 HRAD_API hrad_status hrad_query_points(const hrad_solver *solver, int32_t quantity, int32_t side,
                                        int64_t count, const int64_t *patch, const double *uv,
                                        double *out);

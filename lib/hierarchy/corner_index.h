@@ -12,7 +12,7 @@ namespace hrad {
 
 class CornerIndex {
  public:
-  explicit CornerIndex(const Forest& forest) : names_(forest) {}
+  explicit CornerIndex(const Forest& forest, double facet_area = 0) : names_(forest, facet_area) {}
 
   // The corner's number, a new one when it was not met before.
   int32_t number(int32_t surface, LatticePoint point);

@@ -1,4 +1,4 @@
-// Welding vertices, joining coplanar surfaces, numbering edges. Floor 5 (hierarchy).
+// Welding vertices, joining surfaces, numbering edges. Floor 5 (hierarchy).
 #include "hierarchy/corner_names.h"
 
 #include <algorithm>
@@ -9,6 +9,10 @@
 
 namespace hrad {
 namespace {
+
+// Cosine of the angle between facets of a curved surface, at the least: 20 degrees, so that
+// eighteen make a cylinder.
+constexpr double least_cosine_of_facets = 0.9396;
 
 uint64_t hash_of(Vec3 position) {
   Hasher hasher;
@@ -48,7 +52,7 @@ int32_t find_root(std::vector<int32_t>& parent, int32_t k) {
 
 }  // namespace
 
-CornerNames::CornerNames(const Forest& forest) {
+CornerNames::CornerNames(const Forest& forest, double facet_area) {
   const Scene& scene = *forest.scene;
   const std::vector<int32_t> welded = weld(scene.vertices);
   const int32_t surfaces = static_cast<int32_t>(forest.surface_count());
@@ -79,11 +83,21 @@ CornerNames::CornerNames(const Forest& forest) {
   std::vector<int32_t> having(edge_.size());
   for (size_t k = 0; k < edge_.size(); ++k)
     having[next[static_cast<size_t>(edge_[k])]++] = static_cast<int32_t>(k / 3);
+  const auto runs_up = [&](int32_t s, size_t edge) {
+    int k = 0;
+    while (edge_[3 * s + k] != static_cast<int32_t>(edge)) ++k;
+    return vertex_[3 * s + k] < vertex_[3 * s + (k + 1) % 3];
+  };
   for (size_t edge = 0; edge + 1 < first.size(); ++edge)
     for (uint32_t a = first[edge]; a < first[edge + 1]; ++a)
       for (uint32_t b = a + 1; b < std::min(first[edge + 1], a + 8); ++b) {
         const int32_t x = having[a], y = having[b];
-        if (!share_plane(forest.surfaces[x], forest.surfaces[y])) continue;
+        const Surface &one = forest.surfaces[x], &other = forest.surfaces[y];
+        // The two sides of a fold run along their edge in the same direction.
+        const bool facets = one.area <= facet_area && other.area <= facet_area &&
+                            dot(one.normal, other.normal) >= least_cosine_of_facets &&
+                            runs_up(x, edge) != runs_up(y, edge);
+        if (!facets && !share_plane(one, other)) continue;
         const int32_t p = find_root(plane_, x), q = find_root(plane_, y);
         plane_[std::max(p, q)] = std::min(p, q);
       }

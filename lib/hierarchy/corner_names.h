@@ -1,5 +1,6 @@
-// Names for the corners of elements that neighbouring surfaces in one plane agree on: exact, by
-// lattice coordinates and shared edges, never by comparing rounded positions. Floor 5 (hierarchy).
+// Names for the corners of elements that neighbouring surfaces in one plane agree on, and facets of
+// one curved surface: exact, by lattice coordinates and shared edges, never by comparing rounded
+// positions. Floor 5 (hierarchy).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,9 @@ namespace hrad {
 
 class CornerNames {
  public:
-  explicit CornerNames(const Forest& forest);
+  // Surfaces no larger than facet_area that meet at a shallow edge are joined as if they lay in one
+  // plane.
+  explicit CornerNames(const Forest& forest, double facet_area = 0);
 
   // Surfaces joined in one plane, by their first one.
   int32_t plane(int32_t surface) const { return plane_[static_cast<size_t>(surface)]; }

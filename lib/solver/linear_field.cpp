@@ -31,11 +31,11 @@ void straighten(const CornerIndex& index, int32_t surface, LatticePoint a, Latti
 }  // namespace
 
 LinearField::LinearField(const Forest& forest, int bands, const std::vector<NodeId>& elements,
-                         Known known, const Value& value, const Mean& mean)
+                         Known known, const Value& value, const Mean& mean, double facet_area)
     : forest_(forest),
       bands_(static_cast<size_t>(bands)),
       number_of_element_(forest.nodes.size(), -1) {
-  CornerIndex index(forest);
+  CornerIndex index(forest, facet_area);
   name_corners(elements, index);
   value_.assign(static_cast<size_t>(index.count()) * bands_, 0.0f);
   average(elements, value);

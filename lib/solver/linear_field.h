@@ -12,8 +12,8 @@
 namespace hrad {
 
 // Elements meet at a corner within one surface and across the edges it shares with surfaces of the
-// same plane. The value at a corner that lies within a longer edge of a neighbour is that edge's
-// own, so that no cracks open.
+// same plane, or with facets of a curved surface. The value at a corner that lies within a longer
+// edge of a neighbour is that edge's own, so that no cracks open.
 class LinearField {
  public:
   // What an element says about one of its corners: `bands` values, and how much they weigh.
@@ -25,9 +25,9 @@ class LinearField {
   enum class Known { over_elements, at_corners };
   // Corners get the weighted means of the values, then are moved until the means of the elements
   // are nearly those that are wanted; where values are known over elements, as far as these lie to
-  // one side of the corner.
+  // one side of the corner. facet_area: CornerNames'.
   LinearField(const Forest& forest, int bands, const std::vector<NodeId>& elements, Known known,
-              const Value& value, const Mean& mean);
+              const Value& value, const Mean& mean, double facet_area = 0);
 
   bool has(NodeId element) const { return number_of_element_[element] >= 0; }
   // At the three corners of an element, in the order of Forest::triangle: 3*bands values.

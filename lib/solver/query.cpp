@@ -41,7 +41,8 @@ void node_values(const State& state, NodeId id, Quantity quantity, double* out) 
 const Reconstruction& Solver::reconstruction() const {
   Solution& s = *solution_;
   if (!s.reconstruction) {
-    auto made = std::make_unique<Reconstruction>(s.state, s.leaves, *s.exchange);
+    const RowSettings rows = rows_of(params_, s.state.forest, s.inspection.mean_distance, s.scale);
+    auto made = std::make_unique<Reconstruction>(s.state, s.leaves, *s.exchange, rows.cell_area);
     comm_->all_go_on();  // all of them have it, or none
     s.reconstruction = std::move(made);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/facet_light.h"
 #include "stages/exchange.h"
 #include "stages/gather.h"
 
@@ -11,6 +12,9 @@ namespace hrad {
 namespace {
 
 bool has_points(const State& state) { return !state.direct.of_leaf.empty(); }
+
+// Of a cell, up to which patches are taken for facets, and their light is evened out.
+constexpr double facets_of_a_cell = 1.0 / 16;
 
 // What a leaf with points of its own says about its corners weighs less than what others know.
 constexpr double weight_of_own_points = 1e-3;
@@ -123,10 +127,12 @@ std::vector<int32_t> places_of(const std::vector<NodeId>& ids, size_t nodes) {
 // Light that arrives evenly over cells is made linear on these first, then taken at the corners of
 // the leaves; direct light is known at points, and comes on top.
 LinearField field_of_rows(const State& state, const std::vector<NodeId>& leaves,
-                          const Exchange& exchange) {
+                          const Exchange& exchange, double cell_area) {
   const Forest& forest = state.forest;
   const size_t bands = static_cast<size_t>(state.bands);
-  const LightByLinks light(state, leaves, exchange);
+  LightByLinks light(state, leaves, exchange);
+  const double facet_area = facets_of_a_cell * cell_area;
+  even_out_facets(forest, state.bands, state.cells, facet_area, light.of_cells);
   const std::vector<int32_t> cell_at = places_of(state.cells, forest.nodes.size());
   const std::vector<int32_t> leaf_at = places_of(leaves, forest.nodes.size());
   const auto even = [&](NodeId id, double* values) {
@@ -136,7 +142,7 @@ LinearField field_of_rows(const State& state, const std::vector<NodeId>& leaves,
   };
   const LinearField on_cells(
       forest, state.bands, state.cells, LinearField::Known::over_elements,
-      [&](NodeId id, int, double* values) { return even(id, values); }, even);
+      [&](NodeId id, int, double* values) { return even(id, values); }, even, facet_area);
   const auto add_from_cells = [&](NodeId leaf, int c, double* values) {
     NodeId cell = leaf;
     while (!on_cells.has(cell)) cell = forest.nodes[cell].parent;
@@ -167,9 +173,9 @@ LinearField field_of_rows(const State& state, const std::vector<NodeId>& leaves,
 }  // namespace
 
 Reconstruction::Reconstruction(const State& state, const std::vector<NodeId>& leaves,
-                               const Exchange& exchange)
+                               const Exchange& exchange, double cell_area)
     : bands_(state.bands),
-      field_(has_points(state) ? field_of_rows(state, leaves, exchange)
+      field_(has_points(state) ? field_of_rows(state, leaves, exchange, cell_area)
                                : field_of_means(state, leaves)) {}
 
 void Reconstruction::at(NodeId leaf, double u, double v, double* out) const {
