@@ -1,6 +1,7 @@
 // Points and directions in space. Floor 1 (base).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace hrad {
@@ -38,6 +39,11 @@ struct Triangle {
   // Twice the area long, towards the front.
   Vec3 area_vector() const { return cross(b - a, c - a); }
   Vec3 centroid() const { return (a + b + c) * (1.0 / 3); }
+  // Of the ball around the centroid.
+  double radius() const {
+    const Vec3 middle = centroid();
+    return std::max({length(a - middle), length(b - middle), length(c - middle)});
+  }
   Vec3 at(double u, double v) const { return a * (1 - u - v) + b * u + c * v; }
 };
 

@@ -31,11 +31,6 @@ Triangle quarter(const Triangle& t, int k) {
   }
 }
 
-double radius_of(const Triangle& t, Vec3 center) {
-  const Vec3 a = t.a - center, b = t.b - center, c = t.c - center;
-  return std::sqrt(std::max(dot(a, a), std::max(dot(b, b), dot(c, c))));
-}
-
 // The midpoint rule with four points, extrapolated: its error falls to a quarter from one point to
 // four, so a third of the difference is left over, and is taken away (Richardson).
 Part four_points(const Triangle& t, Vec3 normal, const Triangle& to, double values[4]) {
@@ -52,7 +47,7 @@ Part four_points(const Triangle& t, Vec3 normal, const Triangle& to, double valu
 
 Part integrate(const Triangle& t, Vec3 normal, const Triangle& to, int level) {
   const Vec3 center = t.centroid();
-  if (level == deepest || radius_of(t, center) <= fine_enough * distance_to_triangle(center, to)) {
+  if (level == deepest || t.radius() <= fine_enough * distance_to_triangle(center, to)) {
     double unused[4];
     return four_points(t, normal, to, unused);
   }
@@ -94,7 +89,7 @@ MeanFactor mean_factor(const Triangle& from, Vec3 normal, const Triangle& to) {
   MeanFactor result;
   const Vec3 center = from.centroid();
   double value[4];
-  if (radius_of(from, center) <= fine_enough * distance_to_triangle(center, to)) {
+  if (from.radius() <= fine_enough * distance_to_triangle(center, to)) {
     const Part whole = four_points(from, normal, to, value);
     result.mean = whole.mean;
     result.error = whole.error;

@@ -3,6 +3,7 @@
 #include "machine/topology.h"
 
 #include <hwloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <climits>
@@ -30,6 +31,14 @@ TopologyHandle new_topology() {
   hwloc_topology_t topology = nullptr;
   if (hwloc_topology_init(&topology) != 0) return nullptr;
   return TopologyHandle(topology);
+}
+
+// Where the system tells nothing of its processors, as in a container without /sys, hwloc's Linux
+// part would write about that to standard error; the others count them without it.
+void leave_out_what_sees_nothing(hwloc_topology_t topology) {
+  for (const char* folder : {"/sys/bus/cpu/devices", "/sys/devices/system/cpu"})
+    if (access(folder, R_OK | X_OK) == 0) return;
+  hwloc_topology_set_components(topology, HWLOC_TOPOLOGY_COMPONENTS_FLAG_BLACKLIST, "linux");
 }
 
 // Loads the whole machine, including what the process may not use; the caller's binding stays.
@@ -164,6 +173,7 @@ std::string explain(const Topology& topology, int threads, bool chosen, bool smt
 
 Topology read_topology() {
   const TopologyHandle topology = new_topology();
+  if (topology) leave_out_what_sees_nothing(topology.get());
   if (!topology || !load(topology.get())) return one_core();
   Topology result = examine(topology.get());
   return result.usable_cores > 0 ? result : one_core();

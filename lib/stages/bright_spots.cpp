@@ -21,16 +21,6 @@ constexpr double most_rays_of_a_spot = 1 << 20;
 // Between middles, in their radii: what is nearer fills so much of the view that rows find it.
 constexpr double far_apart = 2;
 
-struct Ball {
-  Vec3 center;
-  double radius;
-};
-
-Ball ball_around(const Triangle& t) {
-  const Vec3 center = t.centroid();
-  return {center, std::max({length(t.a - center), length(t.b - center), length(t.c - center)})};
-}
-
 }  // namespace
 
 BrightSpots::BrightSpots(const State& state, const StageTools& tools, const RowSettings& settings,
@@ -86,9 +76,10 @@ bool BrightSpots::sends_to(NodeId leaf, NodeId cell) const {
   if (rays_[leaf] * exposed_area(cell) <=
       settings_.rays_of(forest.area(forest.nodes[cell])) * exposed_area(leaf))
     return false;
-  const Ball spot = ball_around(forest.triangle(forest.nodes[leaf]));
-  const Ball around = ball_around(forest.triangle(forest.nodes[cell]));
-  return length(spot.center - around.center) > far_apart * (spot.radius + around.radius);
+  const Triangle spot = forest.triangle(forest.nodes[leaf]);
+  const Triangle around = forest.triangle(forest.nodes[cell]);
+  return length(spot.centroid() - around.centroid()) >
+         far_apart * (spot.radius() + around.radius());
 }
 
 double BrightSpots::rays() const {

@@ -1,17 +1,23 @@
 // What is counted of synthetic, recorded and restricted machines and of this one; the pool planned
 // from it. The recorded topologies are hwloc XML in tests/machine/recorded.
+#include <fcntl.h>
 #include <sched.h>
 #include <stdlib.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include "base/error.h"
 #include "machine/thread_team.h"
 #include "machine/topology.h"
 #include "support/check.h"
+#include "support/folder.h"
 
 using hrad::PoolPlan;
 using hrad::Status;
@@ -184,6 +190,32 @@ void this_machine() {
   CHECK(t.contexts >= t.usable_contexts);
 }
 
+// Without /sys the processors are counted all the same, and nobody's output is written to. Skipped
+// where this process may not hide it from itself.
+void a_system_that_tells_nothing() {
+  const hrad_test::Folder folder("topology");
+  const std::string output = folder.file("output");
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr int skipped = 2;
+    if ((unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) ||
+        mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        mount("none", "/sys", "tmpfs", 0, nullptr) != 0)
+      _exit(skipped);
+    const int file = open(output.c_str(), O_CREAT | O_WRONLY, 0600);
+    dup2(file, 1);
+    dup2(file, 2);
+    _exit(hrad::read_topology().usable_contexts == static_cast<int>(own_processors().size()) ? 0
+                                                                                             : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 2) return;
+  CHECK_EQUAL(WEXITSTATUS(status), 0);
+  CHECK(hrad_test::bytes_of_file(output).empty());
+}
+
 // A launcher that binds the process to one processor gets a pool of one.
 void restricted_process() {
   const std::vector<int> before = own_processors();
@@ -304,6 +336,7 @@ int main() {
       HRAD_TEST(unreadable_topologies),
       HRAD_TEST(environment_is_honoured),
       HRAD_TEST(this_machine),
+      HRAD_TEST(a_system_that_tells_nothing),
       HRAD_TEST(restricted_process),
       HRAD_TEST(confined_caller),
       HRAD_TEST(plan_by_number),
