@@ -37,12 +37,7 @@ inline Element element_of(const Forest& forest, const Node& node) {
   e.normal = forest.surfaces[node.surface].normal;
   e.centroid = e.corners.centroid();
   e.area = forest.area(node);
-  const Vec3 a = e.corners.a - e.centroid, b = e.corners.b - e.centroid,
-             c = e.corners.c - e.centroid;
-  double largest = dot(a, a);
-  if (dot(b, b) > largest) largest = dot(b, b);
-  if (dot(c, c) > largest) largest = dot(c, c);
-  e.radius = std::sqrt(largest);
+  e.radius = e.corners.radius();
   e.surface = node.surface;
   e.exposed = node.exposed;
   return e;

@@ -22,46 +22,48 @@ double half_range(const double v[4]) {
 
 }  // namespace
 
-bool LinkSampler::is_exposed(const Element& element, double u, double v) const {
-  if (element.exposed >= 1) return true;
-  const Surface& surface = forest_.surfaces[element.surface];
-  return !exposure_.sealed(surface.patch, surface.side, element.corners.at(u, v));
+ExposedCells& LinkSampler::cells_of(const Element& element) {
+  const Triangle& t = element.corners;
+  const auto is_known = [&](const KnownCells& known) {
+    const Triangle& of = known.corners;
+    return known.surface == element.surface && of.a == t.a && of.b == t.b && of.c == t.c;
+  };
+  if (!is_known(known_[latest_])) latest_ = 1 - latest_;
+  KnownCells& known = known_[latest_];
+  if (!is_known(known)) {
+    known.cells.emplace(exposure_, forest_.surfaces[element.surface], t);
+    known.surface = element.surface;
+    known.corners = t;
+  }
+  return *known.cells;
 }
 
 // Bit k set: point k is exposed.
-uint32_t LinkSampler::exposed_mask(const Element& element, const float u[16],
-                                   const float v[16]) const {
+uint32_t LinkSampler::exposed_mask(const Element& element, const float u[16], const float v[16]) {
   if (element.exposed >= 1) return all_pairs;
+  ExposedCells& cells = cells_of(element);
   uint32_t mask = 0;
   for (int k = 0; k < lanes_per_packet; ++k)
-    if (is_exposed(element, u[k], v[k])) mask |= 1u << k;
+    if (cells.exposed(u[k], v[k])) mask |= 1u << k;
   return mask;
 }
 
-// Points on the sealed part are drawn again until they lie on the exposed one. As often as it takes
-// where a hundredth is exposed; a point that stays sealed counts as blocked. The mask of the
-// others.
+// Points on the sealed part are drawn again, anywhere on the exposed one: to go on to the next
+// sixteenth would favour those that follow sealed ones. A point that stays sealed counts as
+// blocked. The mask of the others.
 uint32_t LinkSampler::move_to_exposed(const Element& element, uint64_t key, float u[16],
-                                      float v[16]) const {
-  constexpr uint64_t most_draws = 400;
+                                      float v[16]) {
   uint32_t mask = exposed_mask(element, u, v);
-  for (int k = 0; k < lanes_per_packet; ++k) {
-    for (uint64_t draw = 0; draw < most_draws && !(mask >> k & 1); ++draw) {
-      // Of any sixteenth: to go on to the next one would favour those that follow sealed ones.
-      const uint64_t h = mix(key, draw, static_cast<uint64_t>(k));
-      double uv[2];
-      spread_point(h, static_cast<int>(mix(h) % lanes_per_packet), uv);
-      u[k] = static_cast<float>(uv[0]);
-      v[k] = static_cast<float>(uv[1]);
-      if (is_exposed(element, u[k], v[k])) mask |= 1u << k;
-    }
-  }
+  for (int k = 0; k < lanes_per_packet; ++k)
+    if (!(mask >> k & 1) &&
+        cells_of(element).draw(mix(key, static_cast<uint64_t>(k)), &u[k], &v[k]))
+      mask |= 1u << k;
   return mask;
 }
 
 // The pairs that are traced, with all that the first look at a link does without.
 void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t key,
-                       LinkEstimate& estimate, DrawnPairs& drawn) const {
+                       LinkEstimate& estimate, DrawnPairs& drawn) {
   if (estimate.by_points) {
     EndPoints unused;
     draw_points(receiver, source, key, false, estimate, drawn, unused);
@@ -99,7 +101,7 @@ void LinkSampler::draw(const Element& receiver, const Element& source, uint64_t 
 }
 
 void LinkSampler::begin(const Element& receiver, const Element& source, uint64_t key,
-                        DrawnPairs& drawn, LinkEstimate& estimate, double allowed) const {
+                        DrawnPairs& drawn, LinkEstimate& estimate, double allowed) {
   if (allowed > 0 && begin_by_points(receiver, source, key, drawn, estimate, allowed)) return;
   draw_pairs(receiver, source, key, engine_.center(), engine_.offset(), drawn.samples);
   drawn.exposed = all_pairs;
@@ -188,7 +190,7 @@ float LinkSampler::exposed_share(const Node& place) const {
   const Surface& surface = forest_.surfaces[place.surface];
   if (!exposure_.can_be_sealed(surface.patch, surface.side)) return 1;
   const Triangle corners = forest_.triangle(place);
-  const Exposure::Part part(exposure_, surface.patch, surface.side, corners);
+  Exposure::Part part(exposure_, surface.patch, surface.side, corners);
   if (!part.can_be_sealed()) return 1;
   const uint64_t key = key_of(forest_, place);
   // Few sets tell most elements that are sealed not at all or all over; the borders take more, and

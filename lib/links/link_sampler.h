@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "links/element.h"
 #include "links/end_points.h"
+#include "links/exposed_cells.h"
 #include "links/pair_samples.h"
 #include "visibility/exposure.h"
 #include "visibility/visibility.h"
@@ -74,7 +76,7 @@ class LinkSampler {
   // weight, per weight, that doesn't matter; where that is much, or an end is a cluster, a rough
   // estimate from EndPoints will do.
   void begin(const Element& receiver, const Element& source, uint64_t key, DrawnPairs& drawn,
-             LinkEstimate& estimate, double allowed = 0) const;
+             LinkEstimate& estimate, double allowed = 0);
 
   // Adds the outcome of tracing the pairs of `lanes`: bit k of blocked: pair k is blocked.
   void add(const DrawnPairs& drawn, uint32_t lanes, uint32_t blocked, LinkEstimate& estimate);
@@ -108,19 +110,19 @@ class LinkSampler {
 
  private:
   bool begin_by_points(const Element& receiver, const Element& source, uint64_t key,
-                       DrawnPairs& drawn, LinkEstimate& estimate, double allowed) const;
+                       DrawnPairs& drawn, LinkEstimate& estimate, double allowed);
   void draw_points(const Element& receiver, const Element& source, uint64_t key, bool keep,
-                   const LinkEstimate& estimate, DrawnPairs& drawn, EndPoints& of_small) const;
+                   const LinkEstimate& estimate, DrawnPairs& drawn, EndPoints& of_small);
   uint32_t place_near(const EndsBySize& ends, const EndPoints& small, uint64_t key,
-                      EndPoints& points, float scale[16]) const;
+                      EndPoints& points, float scale[16]);
   static void scale_to(const LinkEstimate& estimate, DrawnPairs& drawn);
   void draw(const Element& receiver, const Element& source, uint64_t key, LinkEstimate& estimate,
-            DrawnPairs& drawn) const;
+            DrawnPairs& drawn);
   void draw_clusters(const Element& receiver, const Element& source, uint64_t key,
                      LinkEstimate& estimate, DrawnPairs& drawn) const;
-  bool is_exposed(const Element& element, double u, double v) const;
-  uint32_t move_to_exposed(const Element& element, uint64_t key, float u[16], float v[16]) const;
-  uint32_t exposed_mask(const Element& element, const float u[16], const float v[16]) const;
+  ExposedCells& cells_of(const Element& element);
+  uint32_t move_to_exposed(const Element& element, uint64_t key, float u[16], float v[16]);
+  uint32_t exposed_mask(const Element& element, const float u[16], const float v[16]);
   void trace_drawn(const DrawnPairs& drawn, LinkEstimate& estimate);
 
   const Forest& forest_;
@@ -129,6 +131,14 @@ class LinkSampler {
   uint64_t seed_;
   double near_ratio_;
   int64_t rays_ = 0;
+  // Of partly sealed ends: of the receiver of many links, and of the source.
+  struct KnownCells {
+    int32_t surface = -1;
+    Triangle corners;
+    std::optional<ExposedCells> cells;
+  };
+  KnownCells known_[2];
+  int latest_ = 0;
 };
 
 }  // namespace hrad

@@ -29,7 +29,7 @@ Vec3 point(const EndPoints& p, int k) { return {p.x[k], p.y[k], p.z[k]}; }
 // most of the light comes from the near part, which is seen best. scale: by how much less often a
 // point is drawn than evenly. Returns which lie on the end and are exposed.
 uint32_t LinkSampler::place_near(const EndsBySize& ends, const EndPoints& small, uint64_t key,
-                                 EndPoints& points, float scale[16]) const {
+                                 EndPoints& points, float scale[16]) {
   const Element& large = ends.large;
   const Vec3 ab = large.corners.b - large.corners.a, ac = large.corners.c - large.corners.a;
   const Vec3 across = cross(large.normal, ab);
@@ -73,7 +73,7 @@ uint32_t LinkSampler::place_near(const EndsBySize& ends, const EndPoints& small,
 // are costly to find. Returns the points of the smaller end.
 void LinkSampler::draw_points(const Element& receiver, const Element& source, uint64_t key,
                               bool keep, const LinkEstimate& estimate, DrawnPairs& drawn,
-                              EndPoints& of_small) const {
+                              EndPoints& of_small) {
   const EndsBySize ends(receiver, source);
   EndPoints from, to;
   const auto place = [&](const Element& end, uint64_t end_key, EndPoints& points) {
@@ -101,7 +101,7 @@ void LinkSampler::draw_points(const Element& receiver, const Element& source, ui
 
 // False: the link is worth more than a rough estimate.
 bool LinkSampler::begin_by_points(const Element& receiver, const Element& source, uint64_t key,
-                                  DrawnPairs& drawn, LinkEstimate& estimate, double allowed) const {
+                                  DrawnPairs& drawn, LinkEstimate& estimate, double allowed) {
   const bool clusters = receiver.cluster || source.cluster;
   const LinkGuess guess = guess_of(receiver, source);
   const double tolerance = std::sqrt(allowed / std::max(1e-12, guess.factor));

@@ -25,7 +25,7 @@ std::vector<OrientedPoint> LeafLight::points_over(NodeId leaf, double large) con
   const Node& node = forest_.nodes[leaf];
   const Surface& surface = forest_.surfaces[node.surface];
   const Triangle corners = forest_.triangle(node);
-  const Exposure::Part part(tools_.exposure, surface.patch, surface.side, corners);
+  Exposure::Part part(tools_.exposure, surface.patch, surface.side, corners);
   const LowDiscrepancy spread(mix(key_of(forest_, node), tools_.oracle.seed, 0x6d65616eu));
   const double share = std::sqrt(std::min(1.0, forest_.area(node) / large));
   const size_t wanted =

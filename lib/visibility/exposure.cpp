@@ -260,12 +260,16 @@ bool Exposure::sealed(int64_t patch, int32_t side, Vec3 point) const {
 }
 
 Exposure::Part::Part(const Exposure& exposure, int64_t patch, int32_t side, const Triangle& corners)
-    : exposure_(exposure), corners_(corners), normal_(exposure.normal_of(patch, side)) {
+    : exposure_(&exposure), corners_(corners), normal_(exposure.normal_of(patch, side)) {
   const int64_t k = 2 * patch + side;
   const double offset = exposure.engine_.offset();
   const Box on = box_of(corners), above = grown(on, offset);
   for (int64_t c = exposure.first_cover_[k]; c < exposure.first_cover_[k + 1]; ++c)
-    if (overlap(exposure.cover_boxes_[c], on)) covers_.push_back(c);
+    if (overlap(exposure.cover_boxes_[c], on)) {
+      const Triangle t = exposure.scene_.triangle(exposure.covers_[c]);
+      covers_.push_back(
+          {exposure.cover_boxes_[c], t, t.b - t.a, t.c - t.b, t.a - t.c, t.area_vector()});
+    }
   for (int64_t c = exposure.first_enclosing_[k]; c < exposure.first_enclosing_[k + 1]; ++c) {
     const Box& box = exposure.solids_.box[exposure.enclosing_[c]];
     if (overlap(box, above)) solids_.push_back(box);
@@ -274,18 +278,32 @@ Exposure::Part::Part(const Exposure& exposure, int64_t patch, int32_t side, cons
 
 double Exposure::Part::pressed_share() const {
   double area = 0;
-  for (int64_t cover : covers_)
-    area += common_area(corners_, exposure_.scene_.triangle(exposure_.covers_[cover]), normal_);
+  for (const Cover& cover : covers_) area += common_area(corners_, cover.corners, normal_);
   const double all = length(corners_.area_vector()) / 2;
   return all > 0 ? std::min(1.0, area / all) : 0;
 }
 
-bool Exposure::Part::sealed(Vec3 point) const {
-  for (int64_t cover : covers_)
-    if (exposure_.covered(cover, point)) return true;
-  const Vec3 origin = point + normal_ * exposure_.engine_.offset();
+bool Exposure::Part::Cover::over(Vec3 p) const {
+  return holds(box, p) && dot(cross(ab, p - corners.a), normal) >= 0 &&
+         dot(cross(bc, p - corners.b), normal) >= 0 && dot(cross(ca, p - corners.c), normal) >= 0;
+}
+
+bool Exposure::Part::covered(const Triangle& part) const {
+  for (const Cover& cover : covers_)
+    if (cover.over(part.a) && cover.over(part.b) && cover.over(part.c)) return true;
+  return false;
+}
+
+bool Exposure::Part::sealed(Vec3 point) {
+  if (last_ < covers_.size() && covers_[last_].over(point)) return true;
+  for (size_t k = 0; k < covers_.size(); ++k)
+    if (covers_[k].over(point)) {
+      last_ = k;
+      return true;
+    }
+  const Vec3 origin = point + normal_ * exposure_->engine_.offset();
   for (const Box& box : solids_)
-    if (holds(box, origin)) return exposure_.enclosed(origin, normal_);
+    if (holds(box, origin)) return exposure_->enclosed(origin, normal_);
   return false;
 }
 

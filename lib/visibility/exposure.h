@@ -25,22 +25,31 @@ class Exposure {
   // The point (in the scene's coordinates, on the patch) is sealed on this side. Any thread.
   bool sealed(int64_t patch, int32_t side, Vec3 point) const;
 
-  // What may seal points of one element of a side, for many questions about it. Any thread.
+  // What may seal points of one element of a side, for many questions about it by one thread.
   class Part {
    public:
     // corners: the element's.
     Part(const Exposure& exposure, int64_t patch, int32_t side, const Triangle& corners);
     bool can_be_sealed() const { return !covers_.empty() || !solids_.empty(); }
-    bool sealed(Vec3 point) const;
+    bool sealed(Vec3 point);
+    // A single surface that is pressed against the element lies over all of this part of it.
+    bool covered(const Triangle& part) const;
     // Share of it that is pressed against other surfaces, if no two of them overlap.
     double pressed_share() const;
 
    private:
-    const Exposure& exposure_;
+    struct Cover {
+      Box box;  // Exposure::cover_boxes_
+      Triangle corners;
+      Vec3 ab, bc, ca, normal;
+      bool over(Vec3 point) const;
+    };
+    const Exposure* exposure_;
     Triangle corners_;
     Vec3 normal_;
-    std::vector<int64_t> covers_;  // numbers in Exposure::covers_
+    std::vector<Cover> covers_;
     std::vector<Box> solids_;
+    size_t last_ = 0;  // the cover over the last point: the next one often lies under it too
   };
 
   // A surface that faces the same way lies on this point, as a rug on a floor: what would arrive

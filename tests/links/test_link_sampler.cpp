@@ -50,8 +50,7 @@ LinkEstimate traced(const Workbench& bench, LinkSampler& sampler, NodeId receive
   return estimate;
 }
 
-double factor_of(const Workbench& bench, const LinkSampler& sampler, NodeId receiver,
-                 NodeId source) {
+double factor_of(const Workbench& bench, LinkSampler sampler, NodeId receiver, NodeId source) {
   const Pair pair = pair_of(bench, sampler, receiver, source);
   DrawnPairs drawn;
   LinkEstimate estimate;
@@ -60,7 +59,7 @@ double factor_of(const Workbench& bench, const LinkSampler& sampler, NodeId rece
 }
 
 // From the elements of the first two patches to the roots of the next two, weighted by area.
-double squares_by_links(Workbench& bench, const LinkSampler& sampler) {
+double squares_by_links(Workbench& bench, LinkSampler sampler) {
   const Forest& forest = bench.state.forest;
   double sum = 0;
   for (NodeId leaf : forest.leaves()) {
@@ -99,7 +98,7 @@ void near_is_by_size_over_distance() {
   Workbench bench(parallel_squares(6), 1);
   // Two radii of 0.745 at a distance of 6.
   for (double ratio : {0.1, 0.2, 0.3, 0.5}) {
-    const LinkSampler sampler = bench.sampler(ratio);
+    LinkSampler sampler = bench.sampler(ratio);
     const Pair pair = pair_of(bench, sampler, 0, 2);
     DrawnPairs drawn;
     LinkEstimate estimate;
@@ -114,7 +113,7 @@ void reciprocity_holds() {
   Scene scene = parallel_squares(0.7);
   add_quad(scene, {0.6, 0.3, 0.1}, {0, 0, 0.3}, {0, 0.2, 0});
   Workbench bench(std::move(scene), 1);
-  const LinkSampler sampler = bench.sampler(0.4);
+  LinkSampler sampler = bench.sampler(0.4);
   const auto area = [&](NodeId id) { return bench.state.forest.surfaces[id].area; };
   int unequal = 0;
   for (NodeId p = 0; p < 6; ++p)
@@ -232,7 +231,7 @@ void exposed_shares_are_those_of_the_areas() {
   Workbench bench(room_with_a_sealed_floor(), 1);
   Forest& forest = bench.state.forest;
   split_all(forest, 4);
-  const LinkSampler sampler = bench.sampler();
+  LinkSampler sampler = bench.sampler();
   double exposed = 0, whole = 0;
   int partly = 0;
   for (NodeId leaf : forest.leaves()) {

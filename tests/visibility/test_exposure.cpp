@@ -234,7 +234,7 @@ void parts_agree_with_the_whole() {
     for (int k = 0; k < 20; ++k) {
       const Vec3 a = point_on(whole, random), b = point_on(whole, random);
       const Triangle element{a, b, point_on(whole, random)};
-      const Exposure::Part part(s.exposure, p, 0, element);
+      Exposure::Part part(s.exposure, p, 0, element);
       clear += !part.can_be_sealed();
       for (int m = 0; m < 10; ++m) {
         const Vec3 point = point_on(element, random);
@@ -256,7 +256,7 @@ void the_pressed_share_is_exact() {
   double pressed = 0;
   for (int64_t p = 0; p < 12; ++p) {
     const Triangle t = s.scene.triangle(p);
-    const Exposure::Part part(s.exposure, p, 0, t);
+    Exposure::Part part(s.exposure, p, 0, t);
     CHECK_EQUAL(part.can_be_sealed(), part.pressed_share() > 0);
     pressed += part.pressed_share() * length(t.area_vector()) / 2;
   }
