@@ -2,6 +2,8 @@
 // hemisphere. Floor 7 (stages).
 #pragma once
 
+#include <optional>
+
 #include "base/frame.h"
 #include "base/low_discrepancy.h"
 #include "base/triangle_points.h"
@@ -25,11 +27,13 @@ class ElementRays {
         corners_(forest.triangle(element)),
         frame_(surface_.normal),
         points_(key),
-        exposure_(exposure),
         offset_(engine.offset()),
-        is_whole_(!(element.exposed < 1)),
         left_(wanted),
-        places_left_(is_whole_ ? wanted : 64 * wanted) {}
+        places_left_(wanted) {
+    if (!(element.exposed < 1)) return;
+    part_.emplace(exposure, surface_.patch, surface_.side, corners_);
+    places_left_ = 64 * wanted;
+  }
 
   // False: there are no more.
   bool next(Ray& ray) {
@@ -40,7 +44,7 @@ class ElementRays {
       even_in_triangle(p[0], p[1], &ray.x, &ray.y);
       const Vec3 on = corners_.at(ray.x, ray.y);
       // Points on a sealed part see nothing: what is wanted is that of the exposed part.
-      if (!is_whole_ && exposure_.sealed(surface_.patch, surface_.side, on)) continue;
+      if (part_ && part_->sealed(on)) continue;
       ray.origin = on + surface_.normal * offset_;
       ray.direction = frame_.cosine_direction(p[2], p[3]);
       --left_;
@@ -54,9 +58,8 @@ class ElementRays {
   const Triangle corners_;
   const Frame frame_;
   const LowDiscrepancy points_;
-  const Exposure& exposure_;
+  std::optional<Exposure::Part> part_;  // of an element that is partly sealed
   const double offset_;
-  const bool is_whole_;
   int left_, places_left_;
   uint32_t number_ = 0;
 };
