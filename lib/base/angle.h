@@ -8,19 +8,22 @@ constexpr double pi = 3.14159265358979323846;
 
 // The angle in [0, pi] whose sine and cosine are in the proportion sine : cosine, sine >= 0; 0 for
 // 0 : 0. Absolute error below 1e-12. The range is halved twice until |x| <= tan(pi/8), where
-// the series of the arc tangent is cut after x^27.
-inline double angle_of(double sine, double cosine) {
-  const double magnitude = cosine < 0 ? -cosine : cosine;
-  const bool steep = sine > magnitude;
-  const double above = steep ? magnitude : sine;
-  const double below = steep ? sine : magnitude;
+// the series of the arc tangent is cut after x^27. Number: double, or a vector of the compiler's,
+// lane by lane with the same bits.
+template <class Number>
+inline Number angles_of(Number sine, Number cosine) {
+  const Number zero{};
+  const Number magnitude = cosine < 0 ? -cosine : cosine;
+  const auto steep = sine > magnitude;
+  const Number above = steep ? magnitude : sine;
+  const Number below = steep ? sine : magnitude;
   // atan(above/below) in [0, pi/4]; above tan(pi/8) turned back by pi/4.
-  const bool turned = above > 0.41421356237309503 * below;
-  const double numerator = turned ? above - below : above;
-  const double denominator = turned ? above + below : below;
-  const double x = denominator > 0 ? numerator / denominator : 0;
-  const double z = x * x;
-  double series = 1.0 / 27;
+  const auto turned = above > 0.41421356237309503 * below;
+  const Number numerator = turned ? above - below : above;
+  const Number denominator = turned ? above + below : below;
+  const Number x = denominator > 0 ? numerator / denominator : zero;
+  const Number z = x * x;
+  Number series = zero + 1.0 / 27;
   series = 1.0 / 25 - z * series;
   series = 1.0 / 23 - z * series;
   series = 1.0 / 21 - z * series;
@@ -33,11 +36,12 @@ inline double angle_of(double sine, double cosine) {
   series = 1.0 / 7 - z * series;
   series = 1.0 / 5 - z * series;
   series = 1.0 / 3 - z * series;
-  double angle = x * (1 - z * series);
-  if (turned) angle += pi / 4;
-  if (steep) angle = pi / 2 - angle;
+  Number angle = x * (1 - z * series);
+  angle = turned ? angle + pi / 4 : angle;
+  angle = steep ? pi / 2 - angle : angle;
   return cosine < 0 ? pi - angle : angle;
 }
+inline double angle_of(double sine, double cosine) { return angles_of(sine, cosine); }
 
 // Cosine and sine of a fraction in [0,1) of a full turn. Absolute error below 1e-13: the nearest
 // quarter turn is taken away, the rest is at most pi/4, where the series are cut after x^14, x^15.

@@ -40,6 +40,18 @@ void angle_at_the_ends() {
   CHECK_NEAR(angle_of(3, -3), 3 * pi / 4, 1e-15);
 }
 
+void lanes_of_a_vector_have_the_same_bits() {
+  using Two = double __attribute__((vector_size(2 * sizeof(double))));
+  double sine_before = 0, cosine_before = 1;
+  for_each_proportion([&](double sine, double cosine) {
+    const Two angles = angles_of(Two{sine, sine_before}, Two{cosine, cosine_before});
+    CHECK_EQUAL(angles[0], angle_of(sine, cosine));
+    CHECK_EQUAL(angles[1], angle_of(sine_before, cosine_before));
+    sine_before = sine;
+    cosine_before = cosine;
+  });
+}
+
 // Small angles keep their relative precision: differences of them make form factors.
 void small_angles_are_precise() {
   for (double small = 0.3; small > 1e-200; small *= 0.5)
@@ -94,9 +106,13 @@ void bits_are_as_recorded() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(angle_agrees_with_libm),   HRAD_TEST(angle_at_the_ends),
-      HRAD_TEST(small_angles_are_precise), HRAD_TEST(angle_never_falls),
-      HRAD_TEST(turn_agrees_with_libm),    HRAD_TEST(quarter_turns_are_exact),
+      HRAD_TEST(angle_agrees_with_libm),
+      HRAD_TEST(angle_at_the_ends),
+      HRAD_TEST(lanes_of_a_vector_have_the_same_bits),
+      HRAD_TEST(small_angles_are_precise),
+      HRAD_TEST(angle_never_falls),
+      HRAD_TEST(turn_agrees_with_libm),
+      HRAD_TEST(quarter_turns_are_exact),
       HRAD_TEST(bits_are_as_recorded),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
