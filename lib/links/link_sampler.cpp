@@ -22,42 +22,53 @@ double half_range(const double v[4]) {
 
 }  // namespace
 
-ExposedCells& LinkSampler::cells_of(const Element& element) {
+Exposure::Part& LinkSampler::part_of(const Element& element) {
   const Triangle& t = element.corners;
-  const auto is_known = [&](const KnownCells& known) {
+  const auto is_known = [&](const KnownPart& known) {
     const Triangle& of = known.corners;
     return known.surface == element.surface && of.a == t.a && of.b == t.b && of.c == t.c;
   };
   if (!is_known(known_[latest_])) latest_ = 1 - latest_;
-  KnownCells& known = known_[latest_];
+  KnownPart& known = known_[latest_];
   if (!is_known(known)) {
-    known.cells.emplace(exposure_, forest_.surfaces[element.surface], t);
+    const Surface& surface = forest_.surfaces[element.surface];
+    known.part.emplace(exposure_, surface.patch, surface.side, t);
     known.surface = element.surface;
     known.corners = t;
   }
-  return *known.cells;
+  return *known.part;
 }
 
 // Bit k set: point k is exposed.
 uint32_t LinkSampler::exposed_mask(const Element& element, const float u[16], const float v[16]) {
   if (element.exposed >= 1) return all_pairs;
-  ExposedCells& cells = cells_of(element);
+  Exposure::Part& part = part_of(element);
   uint32_t mask = 0;
   for (int k = 0; k < lanes_per_packet; ++k)
-    if (cells.exposed(u[k], v[k])) mask |= 1u << k;
+    if (!part.sealed(element.corners.at(u[k], v[k]))) mask |= 1u << k;
   return mask;
 }
 
-// Points on the sealed part are drawn again, anywhere on the exposed one: to go on to the next
-// sixteenth would favour those that follow sealed ones. A point that stays sealed counts as
-// blocked. The mask of the others.
+// Points on the sealed part are drawn again until they lie on the exposed one. As often as it takes
+// where a hundredth is exposed; a point that stays sealed counts as blocked. The mask of the
+// others.
 uint32_t LinkSampler::move_to_exposed(const Element& element, uint64_t key, float u[16],
                                       float v[16]) {
+  constexpr uint64_t most_draws = 400;
   uint32_t mask = exposed_mask(element, u, v);
-  for (int k = 0; k < lanes_per_packet; ++k)
-    if (!(mask >> k & 1) &&
-        cells_of(element).draw(mix(key, static_cast<uint64_t>(k)), &u[k], &v[k]))
-      mask |= 1u << k;
+  if (mask == all_pairs) return mask;
+  Exposure::Part& part = part_of(element);
+  for (int k = 0; k < lanes_per_packet; ++k) {
+    for (uint64_t draw = 0; draw < most_draws && !(mask >> k & 1); ++draw) {
+      // Of any sixteenth: to go on to the next one would favour those that follow sealed ones.
+      const uint64_t h = mix(key, draw, static_cast<uint64_t>(k));
+      double uv[2];
+      spread_point(h, static_cast<int>(mix(h) % lanes_per_packet), uv);
+      u[k] = static_cast<float>(uv[0]);
+      v[k] = static_cast<float>(uv[1]);
+      if (!part.sealed(element.corners.at(u[k], v[k]))) mask |= 1u << k;
+    }
+  }
   return mask;
 }
 

@@ -9,7 +9,6 @@
 
 #include "links/element.h"
 #include "links/end_points.h"
-#include "links/exposed_cells.h"
 #include "links/pair_samples.h"
 #include "visibility/exposure.h"
 #include "visibility/visibility.h"
@@ -120,7 +119,7 @@ class LinkSampler {
             DrawnPairs& drawn);
   void draw_clusters(const Element& receiver, const Element& source, uint64_t key,
                      LinkEstimate& estimate, DrawnPairs& drawn) const;
-  ExposedCells& cells_of(const Element& element);
+  Exposure::Part& part_of(const Element& element);
   uint32_t move_to_exposed(const Element& element, uint64_t key, float u[16], float v[16]);
   uint32_t exposed_mask(const Element& element, const float u[16], const float v[16]);
   void trace_drawn(const DrawnPairs& drawn, LinkEstimate& estimate);
@@ -132,12 +131,12 @@ class LinkSampler {
   double near_ratio_;
   int64_t rays_ = 0;
   // Of partly sealed ends: of the receiver of many links, and of the source.
-  struct KnownCells {
+  struct KnownPart {
     int32_t surface = -1;
     Triangle corners;
-    std::optional<ExposedCells> cells;
+    std::optional<Exposure::Part> part;
   };
-  KnownCells known_[2];
+  KnownPart known_[2];
   int latest_ = 0;
 };
 

@@ -288,12 +288,6 @@ bool Exposure::Part::Cover::over(Vec3 p) const {
          dot(cross(bc, p - corners.b), normal) >= 0 && dot(cross(ca, p - corners.c), normal) >= 0;
 }
 
-bool Exposure::Part::covered(const Triangle& part) const {
-  for (const Cover& cover : covers_)
-    if (cover.over(part.a) && cover.over(part.b) && cover.over(part.c)) return true;
-  return false;
-}
-
 bool Exposure::Part::sealed(Vec3 point) {
   if (last_ < covers_.size() && covers_[last_].over(point)) return true;
   for (size_t k = 0; k < covers_.size(); ++k)

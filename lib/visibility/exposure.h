@@ -32,8 +32,6 @@ class Exposure {
     Part(const Exposure& exposure, int64_t patch, int32_t side, const Triangle& corners);
     bool can_be_sealed() const { return !covers_.empty() || !solids_.empty(); }
     bool sealed(Vec3 point);
-    // A single surface that is pressed against the element lies over all of this part of it.
-    bool covered(const Triangle& part) const;
     // Share of it that is pressed against other surfaces, if no two of them overlap.
     double pressed_share() const;
 
