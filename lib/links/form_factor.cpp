@@ -1,4 +1,4 @@
-// Lambert's formula, edge by edge. Floor 6 (links).
+// Lambert's formula, two edges at a time. Floor 6 (links).
 #include "links/form_factor.h"
 
 #include <cmath>

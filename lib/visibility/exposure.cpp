@@ -37,7 +37,7 @@ bool holds(const Box& box, Vec3 p) {
 bool same_corners(const Triangle& a, const Triangle& b) {
   const auto among = [&](Vec3 p) {
     for (Vec3 q : {b.a, b.b, b.c})
-      if (p.x == q.x && p.y == q.y && p.z == q.z) return true;
+      if (p == q) return true;
     return false;
   };
   return among(a.a) && among(a.b) && among(a.c);
