@@ -15,6 +15,8 @@ class Span {
   Span(std::vector<U>& v) : data_(v.data()), size_(v.size()) {}
   template <class U>
   Span(const std::vector<U>& v) : data_(v.data()), size_(v.size()) {}
+  template <class U>
+  Span(const Span<U>& s) : data_(s.data()), size_(s.size()) {}
   T* begin() const { return data_; }
   T* end() const { return data_ + size_; }
   T* data() const { return data_; }

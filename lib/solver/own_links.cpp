@@ -21,8 +21,10 @@ void keep_own_links(State& state, const Exchange& exchange) {
         none.push_back({static_cast<NodeId>(k), {}});
     table->replace(std::move(none));
   }
-  if (!state.direct.of_leaf.empty())
-    number_points_by_leaves(state.direct, is_mine, [](int32_t, const Link&) { return true; });
+  CornerLight& direct = state.direct;
+  if (!direct.of_leaf.empty())
+    number_points_by_leaves(direct, direct.point_count(), is_mine,
+                            [&](int32_t point) { return direct.links_of_point(point); });
 }
 
 }  // namespace hrad

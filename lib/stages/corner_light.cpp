@@ -178,7 +178,7 @@ bool CornerSampler::sample_some(size_t first, size_t end, double work) {
           count_of[k - from] = links.size() - before;
         }
         links.shrink_to_fit();
-        const Link* next = links.data();
+        Link* next = links.data();
         for (size_t k = from; k < to; next += count_of[k++ - from])
           links_[k] = {next, count_of[k - from]};
       },
@@ -213,16 +213,22 @@ OrientedPoint CornerSampler::point_of(const Wanted& wanted) const {
 }
 
 void CornerSampler::keep_what_is_named() {
+  number_ = CornerNumbers();
+  wanted_ = std::vector<Wanted>();
   const Emitters& emitters = grid_.emitters();
   number_points_by_leaves(
       state_.direct, value_.size(), [](NodeId) { return true; },
-      [&](int32_t point, std::vector<Link>& kept) {
+      [&](int32_t point) -> Span<const Link> {
         const Place& p = place_[static_cast<size_t>(point)];
         const Vec3 normal = state_.forest.surfaces[p.surface].normal;
-        for (const Link& link : links_of(point))
-          if (emitters.bright(emitters.all()[emitters.of_node(link.source)], {p.x, p.y, p.z},
-                              normal))
-            kept.push_back(link);
+        const auto is_not_bright = [&](const Link& link) {
+          return !emitters.bright(emitters.all()[emitters.of_node(link.source)], {p.x, p.y, p.z},
+                                  normal);
+        };
+        const Span<Link> links = links_[static_cast<size_t>(point)];
+        return {links.begin(),
+                static_cast<size_t>(std::remove_if(links.begin(), links.end(), is_not_bright) -
+                                    links.begin())};
       },
       &tools_.team);
 }

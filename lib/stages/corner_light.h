@@ -87,7 +87,7 @@ class CornerSampler {
   std::vector<Wanted> wanted_;
   size_t sampled_ = 0;        // points that have been
   std::vector<float> value_;  // per point, as what follows
-  std::vector<Span<const Link>> links_;
+  std::vector<Span<Link>> links_;
   struct Place {
     float x, y, z;
     int32_t surface;

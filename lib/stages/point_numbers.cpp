@@ -8,21 +8,10 @@
 
 namespace hrad {
 
-void number_points_by_leaves(CornerLight& direct, const std::function<bool(NodeId leaf)>& keep_leaf,
-                             const std::function<bool(int32_t point, const Link&)>& keep_link) {
-  number_points_by_leaves(
-      direct, direct.point_count(), keep_leaf,
-      [&](int32_t point, std::vector<Link>& links) {
-        for (const Link& link : direct.links_of_point(point))
-          if (keep_link(point, link)) links.push_back(link);
-      },
-      nullptr);
-}
-
-void number_points_by_leaves(
-    CornerLight& direct, size_t points, const std::function<bool(NodeId leaf)>& keep_leaf,
-    const std::function<void(int32_t point, std::vector<Link>& links)>& take_links,
-    ThreadTeam* team) {
+void number_points_by_leaves(CornerLight& direct, size_t points,
+                             const std::function<bool(NodeId leaf)>& keep_leaf,
+                             const std::function<Span<const Link>(int32_t point)>& links_of,
+                             ThreadTeam* team) {
   constexpr int32_t unnamed = -1;
   std::vector<int32_t> number(points, unnamed), order;
   for (size_t id = 0; id < direct.of_leaf.size(); ++id) {
@@ -41,20 +30,18 @@ void number_points_by_leaves(
       point = given;
     }
   }
-  std::vector<uint32_t> first(order.size() + 1, 0);
-  std::vector<std::vector<Link>> kept(std::max<size_t>(1, team ? pieces_of(order.size()) : 1));
-  const auto keep_some = [&](size_t piece, size_t begin, size_t end) {
-    for (size_t k = begin; k < end; ++k) {
-      const size_t before = kept[piece].size();
-      take_links(order[k], kept[piece]);
-      first[k + 1] = static_cast<uint32_t>(kept[piece].size() - before);
-    }
+  const auto for_each_point = [&](const std::function<void(size_t)>& body) {
+    if (team) return for_each_thing(*team, order.size(), body);
+    for (size_t k = 0; k < order.size(); ++k) body(k);
   };
-  if (team)
-    for_each_piece(*team, order.size(), keep_some);
-  else
-    keep_some(0, 0, order.size());
-  for (size_t k = 0; k < order.size(); ++k) first[k + 1] += first[k];
+  std::vector<Span<const Link>> kept(order.size());
+  for_each_point([&](size_t k) { kept[k] = links_of(order[k]); });
+  std::vector<uint32_t> first(order.size() + 1, 0);
+  for (size_t k = 0; k < order.size(); ++k)
+    first[k + 1] = first[k] + static_cast<uint32_t>(kept[k].size());
+  std::vector<Link> links(first.back());
+  for_each_point(
+      [&](size_t k) { std::copy(kept[k].begin(), kept[k].end(), links.data() + first[k]); });
   size_t own = 0;
   for (const CornerLight::OwnPoint& point : direct.own)
     if (number[static_cast<size_t>(point.number)] != unnamed)
@@ -62,7 +49,7 @@ void number_points_by_leaves(
   direct.own.resize(own);
   std::sort(direct.own.begin(), direct.own.end(),
             [](const auto& a, const auto& b) { return a.number < b.number; });
-  direct.links = team ? joined(*team, kept) : std::move(kept.front());
+  direct.links = std::move(links);
   direct.first = std::move(first);
 }
 
