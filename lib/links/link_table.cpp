@@ -2,6 +2,7 @@
 #include "links/link_table.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "machine/thread_team.h"
@@ -17,72 +18,85 @@ uint32_t offset_in_block(size_t links) {
 
 }  // namespace
 
-LinkTable::Block LinkTable::block(size_t number) const {
-  const size_t receiver = number * receivers_of_a_block;
-  return {receiver, std::min(receivers_of_a_block, first_.size() - receiver),
-          blocks_[number].data(), &first_[receiver], static_cast<uint32_t>(blocks_[number].size())};
-}
-
 int64_t LinkTable::link_count() const {
   size_t count = 0;
-  for (const auto& block : blocks_) count += block.size();
+  for (const Block& block : blocks_) count += block.links.size();
   return static_cast<int64_t>(count);
 }
 
 int64_t LinkTable::bytes_of_links() const {
   size_t count = 0;
-  for (const auto& block : blocks_) count += block.capacity();
+  for (const Block& block : blocks_) count += block.links.capacity();
   return static_cast<int64_t>(count * sizeof(Link));
 }
 
 int64_t LinkTable::bytes() const {
-  return bytes_of_links() + static_cast<int64_t>(first_.capacity() * sizeof first_[0] +
-                                                 blocks_.capacity() * sizeof(std::vector<Link>));
+  int64_t bytes = bytes_of_links() + static_cast<int64_t>(blocks_.capacity() * sizeof(Block));
+  for (const Block& block : blocks_)
+    bytes += block.has_links.bytes() +
+             static_cast<int64_t>(block.ends.capacity() * sizeof block.ends[0]);
+  return bytes;
 }
 
 void LinkTable::resize(size_t receivers) {
-  const size_t before = first_.size();
   blocks_.resize((receivers + receivers_of_a_block - 1) / receivers_of_a_block);
-  first_.resize(receivers, 0);
-  // In the block that had room, the new ones come behind its links.
-  for (size_t k = before; k < receivers && k % receivers_of_a_block != 0; ++k)
-    first_[k] = offset_in_block(blocks_[k / receivers_of_a_block].size());
+  const size_t first = std::min(size_, receivers) / receivers_of_a_block;
+  for (size_t k = first; k < blocks_.size(); ++k) {
+    Block& block = blocks_[k];
+    block.has_links.resize(std::min(receivers_of_a_block, receivers - k * receivers_of_a_block));
+    block.ends.resize(block.has_links.count());
+    block.links.resize(block.ends.empty() ? 0 : block.ends.back());
+  }
+  size_ = receivers;
 }
 
 void LinkTable::append(Span<const Link> links) {
-  if (first_.size() % receivers_of_a_block == 0) {
-    if (!blocks_.empty()) blocks_.back().shrink_to_fit();
+  if (size_ % receivers_of_a_block == 0) {
+    if (!blocks_.empty()) shrink_to_fit(blocks_.back());
     blocks_.emplace_back();
   }
-  std::vector<Link>& block = blocks_.back();
-  first_.push_back(offset_in_block(block.size()));
-  block.insert(block.end(), links.begin(), links.end());
+  append(links, blocks_.back());
+  ++size_;
+}
+
+void LinkTable::append(Span<const Link> links, Block& block) {
+  block.has_links.push_back(!links.empty());
+  if (links.empty()) return;
+  block.links.insert(block.links.end(), links.begin(), links.end());
+  block.ends.push_back(offset_in_block(block.links.size()));
+}
+
+void LinkTable::shrink_to_fit(Block& block) {
+  block.has_links.shrink_to_fit();
+  block.ends.shrink_to_fit();
+  block.links.shrink_to_fit();
 }
 
 void LinkTable::shrink_to_fit() {
-  first_.shrink_to_fit();
   blocks_.shrink_to_fit();
-  if (!blocks_.empty()) blocks_.back().shrink_to_fit();
+  if (!blocks_.empty()) shrink_to_fit(blocks_.back());
 }
 
 // runs: those of receivers in this block, ascending.
 void LinkTable::rebuild(size_t number, Span<const NewRun> runs) {
   const size_t begin = number * receivers_of_a_block;
-  const size_t end = std::min(first_.size(), begin + receivers_of_a_block);
-  size_t total = blocks_[number].size();
-  for (const NewRun& run : runs)
-    total += run.links.size() - (*this)[static_cast<size_t>(run.receiver)].links().size();
-  std::vector<Link> made;
-  made.reserve(total);
+  const size_t end = begin + blocks_[number].has_links.size();
+  size_t links = blocks_[number].links.size(), with_links = blocks_[number].ends.size();
+  for (const NewRun& run : runs) {
+    const size_t before = (*this)[static_cast<size_t>(run.receiver)].links().size();
+    links += run.links.size() - before;
+    with_links += size_t{!run.links.empty()} - size_t{before > 0};
+  }
+  Block made;
+  made.links.reserve(links);
+  made.ends.reserve(with_links);
   const NewRun* next = runs.begin();
-  // The old run of k ends where that of k + 1 begins, which is overwritten later.
   for (size_t k = begin; k < end; ++k) {
     const bool is_new = next < runs.end() && static_cast<size_t>(next->receiver) == k;
-    const Span<const Link> links = is_new ? (next++)->links : (*this)[k].links();
-    first_[k] = offset_in_block(made.size());
-    made.insert(made.end(), links.begin(), links.end());
+    append(is_new ? (next++)->links : (*this)[k].links(), made);
   }
-  blocks_[number].swap(made);
+  made.has_links.shrink_to_fit();
+  blocks_[number] = std::move(made);
 }
 
 void LinkTable::replace(std::vector<NewRun> runs, ThreadTeam* team) {

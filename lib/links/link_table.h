@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/presence.h"
 #include "base/span.h"
 #include "links/link.h"
 
@@ -26,32 +27,31 @@ class LinkRun {
 class LinkTable {
  public:
   static constexpr size_t receivers_of_a_block = 1024;
+  static constexpr int64_t most_bytes_of_a_receiver = 5;  // beside its links
 
-  size_t size() const { return first_.size(); }
+  size_t size() const { return size_; }
   LinkRun operator[](size_t receiver) const {
-    const std::vector<Link>& block = blocks_[receiver / receivers_of_a_block];
-    const size_t next = receiver + 1;
-    const size_t end =
-        next < first_.size() && next % receivers_of_a_block != 0 ? first_[next] : block.size();
-    return {block.data() + first_[receiver], end - first_[receiver]};
+    const Block& block = blocks_[receiver / receivers_of_a_block];
+    const size_t k = receiver % receivers_of_a_block;
+    if (!block.has_links[k]) return {nullptr, 0};
+    const size_t run = block.has_links.place(k), first = run > 0 ? block.ends[run - 1] : 0;
+    return {block.links.data() + first, block.ends[run] - first};
   }
-  // The runs of neighbouring receivers: of receiver + k the links from first[k] up to first[k + 1],
-  // of the last one up to `end`.
+  // The runs of neighbouring receivers, of which many have none.
   struct Block {
-    size_t receiver, receivers;
-    const Link* links;
-    const uint32_t* first;
-    uint32_t end;
+    Presence has_links;
+    std::vector<uint32_t> ends;  // of each run, from the end of the one before
+    std::vector<Link> links;
   };
   size_t block_count() const { return blocks_.size(); }
-  Block block(size_t number) const;
+  const Block& block(size_t number) const { return blocks_[number]; }
 
   int64_t link_count() const;
   // Of the arrays, and of that what the links take.
   int64_t bytes() const;
   int64_t bytes_of_links() const;
 
-  // So many receivers; those behind the present ones have no links yet.
+  // So many receivers: new ones have no links yet, and those behind are dropped with theirs.
   void resize(size_t receivers);
   // One more receiver, with these links.
   void append(Span<const Link> links);
@@ -66,10 +66,12 @@ class LinkTable {
   void replace(std::vector<NewRun> runs, ThreadTeam* team = nullptr);
 
  private:
+  static void append(Span<const Link> links, Block& block);
+  static void shrink_to_fit(Block& block);
   void rebuild(size_t block, Span<const NewRun> runs);
 
-  std::vector<uint32_t> first_;  // per receiver, within its block
-  std::vector<std::vector<Link>> blocks_;
+  size_t size_ = 0;
+  std::vector<Block> blocks_;
 };
 
 }  // namespace hrad

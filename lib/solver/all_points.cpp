@@ -26,7 +26,7 @@ std::vector<Told> own_part(const State& state, const Exchange& exchange) {
         ++known;
         told[k].new_points = (told[k].new_points + 1) & 3;
       }
-    told[k].are_own = own_points(state, static_cast<NodeId>(k)) != nullptr;
+    told[k].are_own = state.direct.of_leaf.own_places(k) != nullptr;
   }
   return told;
 }
@@ -41,7 +41,7 @@ size_t Places::own(int64_t place) const {
 AllPoints::AllPoints(State& state, const Exchange& exchange) {
   if (exchange.alone()) {
     points_ = Places(state.direct.point_count());
-    own_points_ = Places(state.direct.own.size());
+    own_points_ = Places(3 * state.direct.of_leaf.own_count());
     return;
   }
   std::vector<Told> told = own_part(state, exchange);
@@ -59,8 +59,8 @@ AllPoints::AllPoints(State& state, const Exchange& exchange) {
   }
 }
 
-std::array<int32_t, 3> AllPoints::of_leaf(const CornerLight& direct, int64_t leaf) const {
-  std::array<int32_t, 3> numbers = direct.of_leaf[static_cast<size_t>(leaf)];
+LeafPoints::Numbers AllPoints::of_leaf(const CornerLight& direct, int64_t leaf) const {
+  LeafPoints::Numbers numbers = direct.of_leaf[static_cast<size_t>(leaf)];
   if (numbers[0] >= 0)
     for (int32_t& number : numbers)
       number = static_cast<int32_t>(points_.place(static_cast<size_t>(number)));

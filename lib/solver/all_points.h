@@ -1,7 +1,6 @@
 // The points of all owners, numbered as one process alone would number them. Floor 8 (solver).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,9 +42,9 @@ class AllPoints {
   AllPoints(State& state, const Exchange& exchange);
 
   const Places& points() const { return points_; }
-  const Places& own_points() const { return own_points_; }  // CornerLight::own
+  const Places& own_points() const { return own_points_; }  // three of each leaf that has some
   // Numbers instead of the own process's.
-  std::array<int32_t, 3> of_leaf(const CornerLight& direct, int64_t leaf) const;
+  LeafPoints::Numbers of_leaf(const CornerLight& direct, int64_t leaf) const;
 
  private:
   Places points_, own_points_;

@@ -75,8 +75,7 @@ void LightReader::unpack(PackedReader& bytes, int64_t first, int64_t end) {
 }
 
 void LightReader::finish(const FilePlace& place) {
-  state_.irradiance.assign(irradiance_.size(), 0.0f);
-  state_.radiosity.assign(radiosity_.size(), 0.0f);
+  state_.resize_light();
   const auto check = [&](float value, const char* what, int64_t id) {
     if (!(value >= 0) || !std::isfinite(value))
       fail_format(place, "the %s of node %lld is %g: it must be finite and at least 0", what,

@@ -28,15 +28,20 @@ class LightReader {
 };
 
 // CornerLight::of_leaf of nodes first .. end-1.
-using PointsOf = std::function<std::array<int32_t, 3>(int64_t node)>;
+using PointsOf = std::function<LeafPoints::Numbers(int64_t node)>;
 void pack_points(const Forest& forest, int64_t first, int64_t end, const PointsOf& points_of,
                  PackedBytes& bytes);
 void unpack_points(PackedReader& bytes, int64_t first, int64_t end, State& state);
 
-using OwnPointAt = std::function<CornerLight::OwnPoint(int64_t k)>;
+// The points that belong to one leaf alone, ascending, three of each leaf that has some.
+struct OwnPoint {
+  int32_t number;
+  LeafPoints::Place place;
+};
+using OwnPointAt = std::function<OwnPoint(int64_t k)>;
 void pack_own_points(int64_t first, int64_t end, const OwnPointAt& point_at, PackedBytes& bytes);
 void unpack_own_points(PackedReader& bytes, int64_t first, int64_t end, CornerLight& direct);
-// FORMAT unless points belong to one surface each, and every leaf with points of its own has them.
+// FORMAT unless points belong to one surface each, and those of one leaf to no other.
 void check_points(const State& state, const FilePlace& place);
 
 }  // namespace hrad

@@ -13,8 +13,6 @@
 namespace hrad {
 namespace {
 
-using Points = std::array<int32_t, 3>;
-
 class LinkWriter {
  public:
   LinkWriter(CheckpointSink& sink, const CheckpointView& view)
@@ -32,9 +30,9 @@ class LinkWriter {
   }
   void points(int64_t leaves) {
     const auto own = [this](int64_t k) { return points_.of_leaf(direct_, k); };
-    ItemsOfOthers<Points> others(
+    ItemsOfOthers<LeafPoints::Numbers> others(
         comm_, [this](int64_t k) { return owner_of_node(k); },
-        [&](int64_t k, std::vector<Points>& list) { list.push_back(own(k)); });
+        [&](int64_t k, std::vector<LeafPoints::Numbers>& list) { list.push_back(own(k)); });
     const PointsOf points_of = [&](int64_t k) { return others.mine(k) ? own(k) : others[k][0]; };
     write(Section::points, leaves, others, [&](int64_t first, int64_t end, PackedBytes& bytes) {
       pack_points(state_.forest, first, end, points_of, bytes);
@@ -49,13 +47,13 @@ class LinkWriter {
   void own_points() {
     const Places &points = points_.points(), &own_points = points_.own_points();
     const auto own = [&](int64_t k) {
-      CornerLight::OwnPoint point = direct_.own[own_points.own(k)];
-      point.number = static_cast<int32_t>(points.place(static_cast<size_t>(point.number)));
-      return point;
+      const size_t own_one = own_points.own(k), leaf = own_one / 3, c = own_one % 3;
+      const size_t number = static_cast<size_t>(direct_.of_leaf.first_own(leaf)) + c;
+      return OwnPoint{static_cast<int32_t>(points.place(number)), direct_.of_leaf.own(leaf)[c]};
     };
-    ItemsOfOthers<CornerLight::OwnPoint> others(
+    ItemsOfOthers<OwnPoint> others(
         comm_, [&](int64_t k) { return own_points.owner(k); },
-        [&](int64_t k, std::vector<CornerLight::OwnPoint>& list) { list.push_back(own(k)); });
+        [&](int64_t k, std::vector<OwnPoint>& list) { list.push_back(own(k)); });
     const OwnPointAt point_at = [&](int64_t k) { return others.mine(k) ? own(k) : others[k][0]; };
     write(Section::own_points, own_points.count(), others,
           [&](int64_t first, int64_t end, PackedBytes& bytes) {

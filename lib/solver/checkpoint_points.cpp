@@ -53,7 +53,7 @@ void pack_points(const Forest& forest, int64_t first, int64_t end, const PointsO
   for (int64_t id = first; id < end; ++id) {
     const Node& node = forest.nodes[static_cast<size_t>(id)];
     if (!can_have_points(node)) continue;
-    const std::array<int32_t, 3> points = points_of(id);
+    const LeafPoints::Numbers points = points_of(id);
     bytes.byte(points[0] >= 0);
     for (int c = 0; c < 3 && points[0] >= 0; ++c) {
       const int32_t known = guess.known(node, c);
@@ -72,7 +72,7 @@ void unpack_points(PackedReader& bytes, int64_t first, int64_t end, State& state
   PointGuess guess;
   for (int64_t id = first; id < end; ++id) {
     const Node& node = state.forest.nodes[static_cast<size_t>(id)];
-    std::array<int32_t, 3> points{-1, -1, -1};
+    LeafPoints::Numbers points = LeafPoints::none;
     if (can_have_points(node) && bytes.flag("whether a leaf has points"))
       for (int c = 0; c < 3; ++c) {
         const int32_t known = guess.known(node, c);
@@ -87,7 +87,14 @@ void unpack_points(PackedReader& bytes, int64_t first, int64_t end, State& state
         points[static_cast<size_t>(c)] = static_cast<int32_t>(number);
         guess.tell(node, static_cast<int32_t>(number), !as_known);
       }
-    state.direct.of_leaf.push_back(points);
+    if (points[0] < 0 || node.light_points != at_own_points) {
+      state.direct.of_leaf.append(points);
+      continue;
+    }
+    if (points[1] != points[0] + 1 || points[2] != points[0] + 2)
+      fail_format(bytes.place(), "the points that are leaf %lld's own are %d, %d and %d",
+                  static_cast<long long>(id), points[0], points[1], points[2]);
+    state.direct.of_leaf.append_own(points[0], {});
   }
 }
 
@@ -95,25 +102,25 @@ void pack_own_points(int64_t first, int64_t end, const OwnPointAt& point_at, Pac
   int64_t before = -1;
   std::vector<uint32_t> places;
   for (int64_t k = first; k < end; ++k) {
-    const CornerLight::OwnPoint point = point_at(k);
+    const OwnPoint point = point_at(k);
     bytes.signed_varint(point.number - before - 1);
     before = point.number;
-    places.push_back(bits_of(point.x));
-    places.push_back(bits_of(point.y));
+    places.push_back(bits_of(point.place.x));
+    places.push_back(bits_of(point.place.y));
   }
   bytes.planes(places);
 }
 
 void unpack_own_points(PackedReader& bytes, int64_t first, int64_t end, CornerLight& direct) {
   const auto most = static_cast<int64_t>(direct.point_count()) - 1;
-  const size_t begin = direct.own.size();
+  LeafPoints& of_leaf = direct.of_leaf;
   int64_t number = -1;
   for (int64_t k = first; k < end; ++k) {
     number = bytes.moved(number + 1, "a leaf's own point", 0, most);
-    if (!direct.own.empty() && number <= direct.own.back().number)
-      fail_format(bytes.place(), "own point %lld follows %d: they must ascend",
-                  static_cast<long long>(number), direct.own.back().number);
-    direct.own.push_back({static_cast<int32_t>(number), 0, 0});
+    const size_t leaf = static_cast<size_t>(k / 3);
+    if (leaf >= of_leaf.own_count() || number != of_leaf.first_own(leaf) + k % 3)
+      fail_format(bytes.place(), "own point %lld is %lld, which no leaf names in this place",
+                  static_cast<long long>(k), static_cast<long long>(number));
   }
   std::vector<uint32_t> places;
   bytes.planes(2 * static_cast<size_t>(end - first), places);
@@ -121,36 +128,30 @@ void unpack_own_points(PackedReader& bytes, int64_t first, int64_t end, CornerLi
     const float place = float_of(places[k]);
     if (!(place >= -largest_place && place <= largest_place))
       fail_format(bytes.place(), "an own point lies at %g in its leaf", static_cast<double>(place));
-    (k % 2 ? direct.own[begin + k / 2].y : direct.own[begin + k / 2].x) = place;
+    const size_t point = static_cast<size_t>(first) + k / 2;
+    LeafPoints::Place& to = of_leaf.own(point / 3)[point % 3];
+    (k % 2 ? to.y : to.x) = place;
   }
 }
 
 void check_points(const State& state, const FilePlace& place) {
-  const CornerLight& direct = state.direct;
-  std::vector<int32_t> surface(direct.point_count(), -1);
-  std::vector<uint8_t> is_named(direct.point_count(), 0);
-  size_t own = 0;
-  std::vector<int32_t> number_of_own(direct.point_count(), -1);
-  for (const auto& point : direct.own)
-    number_of_own[static_cast<size_t>(point.number)] = static_cast<int32_t>(own++);
-  for (size_t id = 0; id < direct.of_leaf.size(); ++id) {
-    const auto& points = direct.of_leaf[id];
+  const LeafPoints& of_leaf = state.direct.of_leaf;
+  std::vector<int32_t> surface(state.direct.point_count(), -1);
+  std::vector<uint8_t> is_own(state.direct.point_count(), 0), is_named = is_own;
+  for (size_t k = 0; k < of_leaf.own_count(); ++k)
+    for (int32_t c = 0; c < 3; ++c) is_own[static_cast<size_t>(of_leaf.first_own(k) + c)] = 1;
+  for (size_t id = 0; id < of_leaf.size(); ++id) {
+    const LeafPoints::Numbers points = of_leaf[id];
     if (points[0] < 0) continue;
     const Node& node = state.forest.nodes[id];
-    for (size_t c = 0; c < 3; ++c) {
-      int32_t& of_point = surface[static_cast<size_t>(points[c])];
-      if (of_point >= 0 && of_point != node.surface)
-        fail_format(place, "point %d belongs to the surfaces %d and %d", points[c], of_point,
+    for (const int32_t number : points) {
+      const size_t point = static_cast<size_t>(number);
+      if (surface[point] >= 0 && surface[point] != node.surface)
+        fail_format(place, "point %d belongs to the surfaces %d and %d", number, surface[point],
                     node.surface);
-      of_point = node.surface;
-      const int32_t first = number_of_own[static_cast<size_t>(points[0])];
-      if (node.light_points == at_own_points &&
-          (first < 0 ||
-           number_of_own[static_cast<size_t>(points[c])] != first + static_cast<int32_t>(c)))
-        fail_format(place, "leaf %zu has points of its own that have no place", id);
-      if (number_of_own[static_cast<size_t>(points[c])] >= 0 &&
-          is_named[static_cast<size_t>(points[c])]++ > 0)
-        fail_format(place, "point %d is the own one of two leaves", points[c]);
+      surface[point] = node.surface;
+      if (is_own[point] && is_named[point]++ > 0)
+        fail_format(place, "point %d is the own one of two leaves", number);
     }
   }
 }

@@ -145,6 +145,12 @@ class Reading {
                  [&](int64_t first, int64_t end, PackedReader& bytes) {
                    unpack_points(bytes, first, end, state);
                  });
+    direct.of_leaf.shrink_to_fit();
+    if (sizes_.own_points != static_cast<int64_t>(3 * direct.of_leaf.own_count()))
+      fail_format(source_.place(Section::points),
+                  "%lld points are known as those of one leaf alone, and named are %lld",
+                  static_cast<long long>(sizes_.own_points),
+                  static_cast<long long>(3 * direct.of_leaf.own_count()));
     size_t point = 0;
     direct.links.reserve(static_cast<size_t>(sizes_.point_links));
     read_runs(Section::point_links, sizes_.points, sizes_.point_links, emitters,

@@ -66,7 +66,7 @@ CheckpointSizes sizes_of(const CheckpointView& view) {
   s.leaves_of_points = static_cast<int64_t>(state->direct.of_leaf.size());
   s.points = static_cast<int64_t>(state->direct.point_count());
   s.point_links = static_cast<int64_t>(state->direct.links.size());
-  s.own_points = static_cast<int64_t>(state->direct.own.size());
+  s.own_points = static_cast<int64_t>(3 * state->direct.of_leaf.own_count());
   return s;
 }
 
@@ -123,10 +123,12 @@ CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source
 
 int64_t bytes_of(const CheckpointSizes& s) {
   const int64_t of_patch = 3 * 4 + 4 + 8 + 1 + 16 * s.bands;
-  const int64_t of_node = static_cast<int64_t>(sizeof(Node)) + 4 + 16 * s.bands;
+  const int64_t of_node =
+      static_cast<int64_t>(sizeof(Node)) + LinkTable::most_bytes_of_a_receiver + 16 * s.bands;
   return 24 * s.vertices + of_patch * s.patches + of_node * s.nodes() +
-         static_cast<int64_t>(sizeof(Cluster)) * s.clusters + 4 * s.receivers_of_means +
-         12 * s.leaves_of_points + 4 * (s.cells + s.points) + 12 * s.own_points +
+         static_cast<int64_t>(sizeof(Cluster)) * s.clusters +
+         LinkTable::most_bytes_of_a_receiver * s.receivers_of_means + 12 * s.leaves_of_points +
+         4 * (s.cells + s.points) + 12 * s.own_points +
          static_cast<int64_t>(sizeof(Link)) * (s.links + s.mean_links + s.point_links);
 }
 

@@ -20,7 +20,7 @@ constexpr double facets_of_a_cell = 1.0 / 16;
 constexpr double weight_of_own_points = 1e-3;
 
 // Weights of the values at three points of a leaf, for the plane through them at a corner.
-bool plane_weights(const CornerLight::OwnPoint* p, int corner, double weight[3]) {
+bool plane_weights(const LeafPoints::Places& p, int corner, double weight[3]) {
   const double x = corner == 1, y = corner == 2;
   const double bx = p[1].x - p[0].x, by = p[1].y - p[0].y, cx = p[2].x - p[0].x,
                cy = p[2].y - p[0].y;
@@ -36,15 +36,15 @@ bool plane_weights(const CornerLight::OwnPoint* p, int corner, double weight[3])
 double direct_light(const State& state, const std::vector<float>& at_points, NodeId leaf,
                     int corner, double* values) {
   const CornerLight& direct = state.direct;
-  const auto& number = direct.of_leaf[leaf];
+  const LeafPoints::Numbers number = direct.of_leaf[static_cast<size_t>(leaf)];
   if (number[0] < 0) {
     std::fill(values, values + state.bands, 0.0);
     return 1e-12;
   }
   const uint8_t points = state.forest.nodes[leaf].light_points;
-  const CornerLight::OwnPoint* own = own_points(state, leaf);
+  const LeafPoints::Places* own = direct.of_leaf.own_places(static_cast<size_t>(leaf));
   double weight[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
-  const bool plane = own && plane_weights(own, corner, weight);
+  const bool plane = own && plane_weights(*own, corner, weight);
   for (int b = 0; b < state.bands; ++b) {
     const auto at = [&](int c) {
       return static_cast<double>(at_points[static_cast<size_t>(number[c]) * state.bands + b]);

@@ -34,7 +34,7 @@ constexpr uint64_t stage_of_linking = 0, stage_of_measuring = uint64_t{1} << 32;
 uint64_t hash_of_light_on(const State& state) {
   Hasher hash;
   for (const auto* light : {&state.radiosity, &state.irradiance})
-    for (float value : *light) hash.add(value);
+    for (size_t k = 0; k < state.irradiance.size(); ++k) hash.add((*light)[k]);
   return hash.value();
 }
 
@@ -176,14 +176,14 @@ bool Solver::Run::sweep(int round) {
     return of_later_rounds(round, seconds_of_round_) + of_measuring();
   });
   if (!solution_.sweeping) begin_sweeps(round);
+  const std::vector<uint32_t> blocks = own_blocks(state_, exchange_);
   StageMemory memory(state_);
-  memory.take(bytes_of_gather_space(state_), "the light of a sweep");
-  GatherSpace space;
+  memory.take(static_cast<int64_t>(blocks.capacity() * sizeof blocks[0]), "lists of receivers");
   bool going_on = true;
   solution_.converged = false;
   while (going_on && !solution_.converged && !out_of_sweeps()) {
     solution_.converged =
-        solution_.convergence.reached(hrad::sweep(state_, *solution_.team, exchange_, space));
+        solution_.convergence.reached(hrad::sweep(state_, *solution_.team, exchange_, blocks));
     ++solver_.stats_.iterations;
     solution_.sweeping = !solution_.converged && !out_of_sweeps();
     const double share = solution_.convergence.share_of_way();

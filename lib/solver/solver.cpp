@@ -233,10 +233,10 @@ uint64_t hash_of_node(const State& state, NodeId id) {
   // Numbers of points are a matter of who numbers them: what they say is not.
   if (at < direct.of_leaf.size() && direct.of_leaf[at][0] >= 0) {
     for (int32_t point : direct.of_leaf[at]) add(hash, direct.links_of_point(point));
-    if (const CornerLight::OwnPoint* own = own_points(state, id))
-      for (int k = 0; k < 3; ++k) {
-        hash.add(own[k].x);
-        hash.add(own[k].y);
+    if (const LeafPoints::Places* own = direct.of_leaf.own_places(at))
+      for (const LeafPoints::Place& place : *own) {
+        hash.add(place.x);
+        hash.add(place.y);
       }
   }
   for (int band = 0; band < state.bands; ++band)

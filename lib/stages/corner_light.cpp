@@ -139,7 +139,7 @@ bool CornerSampler::sample(double work) {
         sample_some(before + first, before + std::min(count, first + corners_of_a_step), work);
   if (!tools_.exchange.all_go_on(going_on)) return false;
   work_ += work * static_cast<double>(count);
-  wanted_.clear();
+  wanted_ = std::vector<Wanted>();
   count_memory();
   return true;
 }
@@ -169,9 +169,11 @@ bool CornerSampler::sample_some(size_t first, size_t end, double work) {
   const bool going_on = state_.journal.for_each(
       tools_.team, static_cast<int64_t>(tasks),
       [&](int64_t task, int) {
-        std::vector<Link>& links = parts_[first_part + static_cast<size_t>(task)];
+        Part& part = parts_[first_part + static_cast<size_t>(task)];
+        std::vector<Link>& links = part.links;
         size_t count_of[corners_of_a_task] = {};
         const size_t from = first_of(task), to = first_of(task + 1);
+        part.first = from;
         for (size_t k = from; k < to; ++k) {
           const size_t before = links.size();
           value_[k] = static_cast<float>(sample(k, links));
@@ -197,8 +199,17 @@ bool CornerSampler::sample_some(size_t first, size_t end, double work) {
   if (!going_on) return false;
   for (int64_t r : rays) state_.rays += r;
   sampled_ = end;
-  for (size_t part = first_part; part < parts_.size(); ++part) count_links(parts_[part].size());
+  for (size_t part = first_part; part < parts_.size(); ++part)
+    count_links(parts_[part].links.size());
   return true;
+}
+
+void CornerSampler::forget_links(size_t first) {
+  // A part that holds links of points before stays.
+  for (; !parts_.empty() && parts_.back().first >= first; parts_.pop_back())
+    link_count_ -= parts_.back().links.size();
+  std::fill(links_.begin() + static_cast<std::ptrdiff_t>(first), links_.end(), Span<Link>());
+  count_memory();
 }
 
 void CornerSampler::count_links(size_t more) {
@@ -215,6 +226,7 @@ OrientedPoint CornerSampler::point_of(const Wanted& wanted) const {
 void CornerSampler::keep_what_is_named() {
   number_ = CornerNumbers();
   wanted_ = std::vector<Wanted>();
+  state_.direct.of_leaf.settle();
   const Emitters& emitters = grid_.emitters();
   number_points_by_leaves(
       state_.direct, value_.size(), [](NodeId) { return true; },

@@ -49,6 +49,8 @@ class CornerSampler {
   int32_t add(NodeId element, int which, Vec3 place);
   // The same of the middles of many elements, whose numbers follow each other from asked() on.
   void add_middles(const std::vector<NodeId>& elements, int which);
+  // The links of the points from number `first` on are not needed any more.
+  void forget_links(size_t first);
   // Three points that have the mean of every quadratic field over the exposed part of an element
   // some of whose corners are sealed, as far as that part is a triangle or a quadrangle; or thrice
   // one exposed point within. False: nothing exposed was found. Any thread.
@@ -92,8 +94,12 @@ class CornerSampler {
     float x, y, z;
     int32_t surface;
   };
-  std::vector<Place> place_;              // roughly
-  std::vector<std::vector<Link>> parts_;  // what the links lie in
+  std::vector<Place> place_;  // roughly
+  struct Part {               // of the points from one number on, what their links lie in
+    size_t first;
+    std::vector<Link> links;
+  };
+  std::vector<Part> parts_;
   size_t link_count_ = 0;
   StageMemory memory_;  // of all these
   int64_t counted_ = 0;

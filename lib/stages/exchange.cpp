@@ -36,9 +36,8 @@ void Exchange::ask_for_sources(const State& state) {
   asked_.resize(forest.nodes.size(), 0);
   std::vector<std::vector<NodeId>> wanted(asked_of_.size());
   for (size_t block = 0; block < state.links.block_count(); ++block) {
-    const LinkTable::Block b = state.links.block(block);
-    for (uint32_t k = 0; k < b.end; ++k) {
-      const NodeId source = b.links[k].source;
+    for (const Link& link : state.links.block(block).links) {
+      const NodeId source = link.source;
       const Node& node = forest.nodes[source];
       // Roots are known to all, and clusters are made of them.
       if (node.level == 0 || asked_[source] || mine(node.surface)) continue;

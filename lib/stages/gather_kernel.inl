@@ -30,22 +30,25 @@ inline void add_run(const Link* link, const Link* last, const float* sources, Fo
 }
 
 template <int Bands>
-inline void gather_runs_of(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
-                           const float* sources, float* out) {
+inline void gather_runs_of(const Link* links, const uint32_t* ends, const uint16_t* receivers,
+                           size_t runs, const float* sources, float* out) {
+  const uint32_t all = runs > 0 ? ends[runs - 1] : 0;
+  uint32_t first = 0;
   for (size_t k = 0; k < runs; ++k) {
-    const uint32_t next = k + 1 < runs ? first[k + 1] : end;
     FourDoubles sum = {};
-    if (end - next >= links_ahead)
-      add_run<Bands, true>(links + first[k], links + next, sources, sum);
+    if (all - ends[k] >= links_ahead)
+      add_run<Bands, true>(links + first, links + ends[k], sources, sum);
     else
-      add_run<Bands, false>(links + first[k], links + next, sources, sum);
-    for (int b = 0; b < Bands; ++b) out[k * Bands + b] = static_cast<float>(sum[b]);
+      add_run<Bands, false>(links + first, links + ends[k], sources, sum);
+    first = ends[k];
+    float* const to = out + static_cast<size_t>(receivers[k]) * Bands;
+    for (int b = 0; b < Bands; ++b) to[b] += static_cast<float>(sum[b]);
   }
 }
 
-inline void gather_runs(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
-                        const float* sources, int bands, float* out) {
-  if (bands == 2) return gather_runs_of<2>(links, first, runs, end, sources, out);
-  if (bands == 3) return gather_runs_of<3>(links, first, runs, end, sources, out);
-  gather_runs_of<4>(links, first, runs, end, sources, out);
+inline void gather_runs(const Link* links, const uint32_t* ends, const uint16_t* receivers,
+                        size_t runs, const float* sources, int bands, float* out) {
+  if (bands == 2) return gather_runs_of<2>(links, ends, receivers, runs, sources, out);
+  if (bands == 3) return gather_runs_of<3>(links, ends, receivers, runs, sources, out);
+  gather_runs_of<4>(links, ends, receivers, runs, sources, out);
 }

@@ -11,9 +11,9 @@ namespace {
 #include "stages/gather_kernel.inl"
 }  // namespace
 
-void gather_runs_avx2(const Link* links, const uint32_t* first, size_t runs, uint32_t end,
-                      const float* sources, int bands, float* out) {
-  gather_runs(links, first, runs, end, sources, bands, out);
+void gather_runs_avx2(const Link* links, const uint32_t* ends, const uint16_t* receivers,
+                      size_t runs, const float* sources, int bands, float* out) {
+  gather_runs(links, ends, receivers, runs, sources, bands, out);
 }
 
 }  // namespace hrad

@@ -79,7 +79,7 @@ bool LeafLight::name() {
     return !tools_.exchange.mine(forest_.nodes[leaf].surface);
   };
   leaves.erase(std::remove_if(leaves.begin(), leaves.end(), is_others), leaves.end());
-  state_.direct.of_leaf.resize(forest_.nodes.size(), {-1, -1, -1});
+  state_.direct.of_leaf.resize(forest_.nodes.size());
   take_own_points(gathered<NodeId>(tools_.team, leaves.size(),
                                    [&](size_t k, std::vector<NodeId>& partly_sealed) {
                                      if (!take_corners(leaves[k]))
@@ -96,11 +96,13 @@ bool LeafLight::name() {
     centroids[k] = static_cast<int32_t>(corners_.asked()) + static_cast<int32_t>(wanted.size());
     wanted.push_back(leaves[k]);
   }
+  const auto first_middle = static_cast<size_t>(corners_.asked());
   corners_.add_middles(wanted, number_of_centroid);
   const auto its_middle = [&](size_t k) { return keyed_middle_of(forest_, leaves[k]); };
   if (!open_cubes(grid_, leaves.size(), its_middle, state_, tools_)) return false;
   if (!corners_.sample(work_of_a_middle)) return false;
   add_up_means(leaves, centroids);
+  corners_.forget_links(first_middle);
   return true;
 }
 
@@ -110,7 +112,7 @@ void LeafLight::forget_divided() {
       [&](size_t k, std::vector<LinkTable::NewRun>& runs) {
         const NodeId id = static_cast<NodeId>(k);
         if (forest_.is_leaf(id) || Forest::is_cluster(forest_.nodes[id])) return;
-        if (!state_.direct.of_leaf.empty()) state_.direct.of_leaf[id] = {-1, -1, -1};
+        if (!state_.direct.of_leaf.empty()) state_.direct.of_leaf.forget(static_cast<size_t>(id));
         if (state_.direct.mean[id].count() > 0) runs.push_back({id, {}});
       });
   state_.direct.mean.replace(std::move(none), &tools_.team);
@@ -124,12 +126,12 @@ bool LeafLight::take_corners(NodeId leaf) {
     half_way_points(node, point);
   else
     lattice_corners(node, point);
-  std::array<int32_t, 3> number;
+  LeafPoints::Numbers number;
   for (int c = 0; c < 3; ++c) {
     number[c] = corners_.find(node.surface, point[c]);
     if (corners_.value(number[c]) < 0) return false;
   }
-  state_.direct.of_leaf[leaf] = number;
+  state_.direct.of_leaf.name(static_cast<size_t>(leaf), number);
   return true;
 }
 
@@ -145,25 +147,26 @@ void LeafLight::take_own_points(const std::vector<NodeId>& leaves) {
     lattice_corners(forest_.nodes[leaves[k]], corner);
     found[k].any = corners_.points_of_exposed(leaves[k], corner, found[k].place);
   });
-  CornerLight& direct = state_.direct;
   for (size_t k = 0; k < leaves.size(); ++k) {
     Node& node = forest_.nodes[leaves[k]];
     node.light_points = at_own_points;
     if (!found[k].any) continue;
     const Triangle triangle = forest_.triangle(node);
+    LeafPoints::Numbers number;
+    LeafPoints::Places places;
     for (int c = 0; c < 3; ++c) {
-      const int32_t number = corners_.add(leaves[k], c, found[k].place[c]);
-      direct.of_leaf[leaves[k]][c] = number;
+      number[c] = corners_.add(leaves[k], c, found[k].place[c]);
       double x, y;
       coordinates_in(triangle, found[k].place[c], &x, &y);
-      direct.own.push_back({number, static_cast<float>(x), static_cast<float>(y)});
+      places[c] = {static_cast<float>(x), static_cast<float>(y)};
     }
+    state_.direct.of_leaf.name_own(static_cast<size_t>(leaves[k]), number[0], places);
   }
 }
 
 LeafLight::Shares LeafLight::shares_of_mean(NodeId leaf, int32_t centroid) const {
   const Node& node = forest_.nodes[leaf];
-  const auto& points = state_.direct.of_leaf[leaf];
+  const LeafPoints::Numbers points = state_.direct.of_leaf[static_cast<size_t>(leaf)];
   Shares shares;
   if (points[0] < 0) return shares;
   if (centroid < 0 || corners_.value(centroid) < 0) {

@@ -47,8 +47,7 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
   }
   require_numbers(count);
   nodes.resize(count);
-  state.radiosity.resize(count * bands);
-  state.irradiance.resize(count * bands);
+  state.resize_light();
   const auto add = [&](size_t task) {
     NodeId next = first[task];
     for (const NewFamily& family : families[task]) {
@@ -80,8 +79,7 @@ void drop_elements(State& state, size_t first) {
   for (size_t k = first; k < nodes.size(); ++k)
     nodes[static_cast<size_t>(nodes[k].parent)].first_child = -1;
   nodes.resize(first);
-  for (auto* light : {&state.radiosity, &state.irradiance})
-    light->resize(first * static_cast<size_t>(state.bands));
+  state.resize_light();
   state.links.resize(first);
 }
 

@@ -14,22 +14,28 @@ void number_points_by_leaves(CornerLight& direct, size_t points,
                              ThreadTeam* team) {
   constexpr int32_t unnamed = -1;
   std::vector<int32_t> number(points, unnamed), order;
+  const auto number_of = [&](int32_t point) {
+    int32_t& given = number[static_cast<size_t>(point)];
+    if (given == unnamed) {
+      given = static_cast<int32_t>(order.size());
+      order.push_back(point);
+    }
+    return given;
+  };
+  LeafPoints named;
   for (size_t id = 0; id < direct.of_leaf.size(); ++id) {
-    auto& named = direct.of_leaf[id];
-    if (named[0] < 0) continue;
-    if (!keep_leaf(static_cast<NodeId>(id))) {
-      named = {-1, -1, -1};
+    LeafPoints::Numbers numbers = direct.of_leaf[id];
+    if (numbers[0] < 0 || !keep_leaf(static_cast<NodeId>(id))) {
+      named.append(LeafPoints::none);
       continue;
     }
-    for (int32_t& point : named) {
-      int32_t& given = number[static_cast<size_t>(point)];
-      if (given == unnamed) {
-        given = static_cast<int32_t>(order.size());
-        order.push_back(point);
-      }
-      point = given;
-    }
+    for (int32_t& point : numbers) point = number_of(point);
+    if (const LeafPoints::Places* own = direct.of_leaf.own_places(id))
+      named.append_own(numbers[0], *own);
+    else
+      named.append(numbers);
   }
+  named.shrink_to_fit();
   const auto for_each_point = [&](const std::function<void(size_t)>& body) {
     if (team) return for_each_thing(*team, order.size(), body);
     for (size_t k = 0; k < order.size(); ++k) body(k);
@@ -42,13 +48,7 @@ void number_points_by_leaves(CornerLight& direct, size_t points,
   std::vector<Link> links(first.back());
   for_each_point(
       [&](size_t k) { std::copy(kept[k].begin(), kept[k].end(), links.data() + first[k]); });
-  size_t own = 0;
-  for (const CornerLight::OwnPoint& point : direct.own)
-    if (number[static_cast<size_t>(point.number)] != unnamed)
-      direct.own[own++] = {number[static_cast<size_t>(point.number)], point.x, point.y};
-  direct.own.resize(own);
-  std::sort(direct.own.begin(), direct.own.end(),
-            [](const auto& a, const auto& b) { return a.number < b.number; });
+  direct.of_leaf = std::move(named);
   direct.links = std::move(links);
   direct.first = std::move(first);
 }

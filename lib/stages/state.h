@@ -2,8 +2,6 @@
 // Floor 7 (stages).
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -14,6 +12,7 @@
 #include "links/link_table.h"
 #include "links/oracle.h"
 #include "machine/thread_team.h"
+#include "stages/leaf_points.h"
 #include "stages/link_journal.h"
 #include "visibility/exposure.h"
 #include "visibility/visibility.h"
@@ -24,18 +23,11 @@ namespace hrad {
 struct CornerLight {
   LinkTable mean;  // per node, of leaves: the mean over the leaf, from roots of emitters
   // What pictures and points are made of, linear between three points of a leaf
-  // (Node::light_points). Per node the numbers of these points in the order of Forest::triangle;
-  // -1: the node has no direct light or is no leaf. No point is shared by two surfaces. Empty in
-  // other linking methods, and where means alone are wanted.
-  std::vector<std::array<int32_t, 3>> of_leaf;
+  // (Node::light_points). No point is shared by two surfaces. Empty in other linking methods, and
+  // where means alone are wanted.
+  LeafPoints of_leaf;
   std::vector<uint32_t> first;  // per point and one more: its run of links
   std::vector<Link> links;      // from roots of emitters
-  // The points that belong to one leaf alone, ascending, and where they lie in it.
-  struct OwnPoint {
-    int32_t number;
-    float x, y;
-  };
-  std::vector<OwnPoint> own;
   Span<const Link> links_of_point(int32_t point) const {
     const size_t at = static_cast<size_t>(point);
     return {links.data() + first[at], static_cast<size_t>(first[at + 1] - first[at])};
@@ -51,9 +43,20 @@ struct State {
   LinkTable links;            // per receiver
   std::vector<NodeId> cells;  // linking=rows: the elements that own rows, all surfaces covered
   CornerLight direct;
-  std::vector<float> radiosity;   // per node and band: mean over the exposed part
+  // Per node and band: the mean over the exposed part. And a few values more that don't count, for
+  // whoever reads four at a time.
+  static constexpr size_t floats_beyond = 4;
+  std::vector<float> radiosity;
   std::vector<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
                                   // links brought
+  // Room for the light of all nodes; that of new ones is 0.
+  void resize_light() {
+    const size_t values = forest.nodes.size() * static_cast<size_t>(bands);
+    irradiance.resize(values);
+    radiosity.reserve(values + floats_beyond);
+    radiosity.resize(values);
+    radiosity.resize(values + floats_beyond);
+  }
   int64_t rays = 0, pairs = 0;
   LinkJournal journal;  // of linking or a round of refinement that is under way
   // Within such a round: nodes from this one on are those that it has made so far; -1: there is
@@ -64,17 +67,6 @@ struct State {
   }
   MemoryBudget memory;  // of scene, ray engine, elements and links
 };
-
-// Where the three points of its own lie in a leaf, nullptr: it has none.
-inline const CornerLight::OwnPoint* own_points(const State& state, NodeId leaf) {
-  if (state.forest.nodes[leaf].light_points != at_own_points) return nullptr;
-  const CornerLight& direct = state.direct;
-  const int32_t first = direct.of_leaf[leaf][0];
-  const auto found = std::lower_bound(
-      direct.own.begin(), direct.own.end(), first,
-      [](const CornerLight::OwnPoint& p, int32_t number) { return p.number < number; });
-  return found != direct.own.end() && found->number == first ? &*found : nullptr;
-}
 
 class Exchange;
 

@@ -23,8 +23,8 @@ int64_t bytes_of_nodes(const State& state) {
   return bytes_in(tree.clusters) + bytes_in(tree.order) + bytes_in(tree.area_before) +
          bytes_in(state.forest.nodes) + bytes_in(state.radiosity) + bytes_in(state.irradiance) +
          state.links.bytes() - state.links.bytes_of_links() + bytes_in(state.cells) +
-         direct.mean.bytes() - direct.mean.bytes_of_links() + bytes_in(direct.of_leaf) +
-         bytes_in(direct.first) + bytes_in(direct.own) + state.journal.bytes();
+         direct.mean.bytes() - direct.mean.bytes_of_links() + direct.of_leaf.bytes() +
+         bytes_in(direct.first) + state.journal.bytes();
 }
 
 int64_t bytes_of(const State& state) { return bytes_of_nodes(state) + bytes_of_links(state); }
@@ -39,7 +39,6 @@ void shrink_to_fit(State& state) {
   state.direct.of_leaf.shrink_to_fit();
   state.direct.first.shrink_to_fit();
   state.direct.links.shrink_to_fit();
-  state.direct.own.shrink_to_fit();
 }
 
 void clear(State& state) {

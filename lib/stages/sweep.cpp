@@ -28,18 +28,6 @@ void for_each_surface(const State& state, ThreadTeam& team, const Exchange& exch
   });
 }
 
-// Blocks of receivers in which some are clusters or this process's own.
-std::vector<uint32_t> own_blocks(const State& state, const Exchange& exchange) {
-  std::vector<uint32_t> blocks;
-  for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
-    const uint32_t block = static_cast<uint32_t>(k / LinkTable::receivers_of_a_block);
-    if (!blocks.empty() && blocks.back() == block) continue;
-    const Node& node = state.forest.nodes[k];
-    if (Forest::is_cluster(node) || exchange.mine(node.surface)) blocks.push_back(block);
-  }
-  return blocks;
-}
-
 // Per surface one row of `bands` sums, made by row_of(root, row), then added in key order: the same
 // bits however many threads.
 // share(rows): makes them known to all.
@@ -167,9 +155,21 @@ float spread_below(const State& state, NodeId id, const std::vector<double>& uni
 
 }  // namespace
 
-std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, GatherSpace& space) {
-  if (!exchange.alone() && space.blocks.empty()) space.blocks = own_blocks(state, exchange);
-  gather(state, team, space);
+std::vector<uint32_t> own_blocks(const State& state, const Exchange& exchange) {
+  std::vector<uint32_t> blocks;
+  if (exchange.alone()) return blocks;
+  for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
+    const uint32_t block = static_cast<uint32_t>(k / LinkTable::receivers_of_a_block);
+    if (!blocks.empty() && blocks.back() == block) continue;
+    const Node& node = state.forest.nodes[k];
+    if (Forest::is_cluster(node) || exchange.mine(node.surface)) blocks.push_back(block);
+  }
+  return blocks;
+}
+
+std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange,
+                          const std::vector<uint32_t>& blocks) {
+  gather(state, team, blocks);
   std::vector<double> transported = push_pull(state, team, exchange);
   exchange.update(state);
   return transported;
@@ -196,8 +196,8 @@ void pull_exposure(Forest& forest) {
 void reset_to_emission(State& state) {
   const Scene& scene = *state.forest.scene;
   const size_t count = state.forest.nodes.size();
-  state.radiosity.resize(count * state.bands);
-  state.irradiance.assign(count * state.bands, 0.0f);
+  state.resize_light();
+  std::fill(state.irradiance.begin(), state.irradiance.end(), 0.0f);
   for (size_t k = 0; k < count; ++k) {
     if (Forest::is_cluster(state.forest.nodes[k])) continue;
     const int32_t patch = state.forest.surfaces[state.forest.nodes[k].surface].patch;

@@ -9,8 +9,12 @@
 namespace hrad {
 
 // One iteration: gathering over own links, sweeping on own surfaces, and their radiosity told to
-// whoever has asked for it. Returns what push_pull() does.
-std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, GatherSpace& space);
+// whoever has asked for it. blocks: what own_blocks() says. Returns what push_pull() does.
+std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange,
+                          const std::vector<uint32_t>& blocks);
+
+// Blocks of receivers in which some are clusters or this process's own; empty: all.
+std::vector<uint32_t> own_blocks(const State& state, const Exchange& exchange);
 
 // From what gather() left in state.irradiance makes that and state.radiosity of every node. Means
 // are over the exposed part; a node sealed all over has B = E and H = 0. Returns the radiosity

@@ -93,9 +93,14 @@ void weigh(const hrad::CheckpointContent& content, Costs& costs) {
   of_leaves.add(state.forest.nodes);
   of_leaves.add(state.forest.clusters.clusters);
   of_leaves.add(state.cells);
-  of_leaves.add(state.direct.of_leaf);
+  const hrad::LeafPoints& points = state.direct.of_leaf;
+  std::vector<hrad::LeafPoints::Numbers> numbers;
+  std::vector<hrad::LeafPoints::Places> places;
+  for (size_t k = 0; k < points.size(); ++k) numbers.push_back(points[k]);
+  for (size_t k = 0; k < points.own_count(); ++k) places.push_back(points.own(k));
+  of_leaves.add(numbers);
   of_leaves.add(state.direct.first);
-  of_leaves.add(state.direct.own);
+  of_leaves.add(places);
   of_leaves.add(state.radiosity);
   of_leaves.add(state.irradiance);
   of_rest.add(content.scene.vertices);

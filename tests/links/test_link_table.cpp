@@ -1,4 +1,5 @@
 // The table of links against plain arrays of arrays.
+#include <algorithm>
 #include <vector>
 
 #include "base/hash.h"
@@ -49,7 +50,12 @@ void appended_runs_are_there() {
     table.shrink_to_fit();
     check_same(table, rows);
     CHECK_EQUAL(table.bytes_of_links(), table.link_count() * 8);
-    CHECK(table.bytes() >= table.bytes_of_links() + static_cast<int64_t>(4 * size));
+    int64_t with_links = 0;
+    for (const std::vector<Link>& row : rows) with_links += !row.empty();
+    const int64_t beside = table.bytes() - table.bytes_of_links();
+    CHECK(beside >= 4 * with_links + static_cast<int64_t>(size / 8));
+    if (size >= 1024)
+      CHECK(beside <= LinkTable::most_bytes_of_a_receiver * static_cast<int64_t>(size));
   }
 }
 
@@ -69,6 +75,23 @@ void new_receivers_have_no_links() {
       }
     table.replace(std::move(runs), &team);
     check_same(table, rows);
+  }
+}
+
+void dropped_receivers_take_their_links_along() {
+  LinkTable table;
+  Rows rows;
+  for (uint64_t k = 0; k < 5000; ++k) {
+    rows.push_back(some_links(k));
+    table.append(rows.back());
+  }
+  for (size_t size : {4999, 4096, 3500, 2047, 1024, 1023, 1, 0, 1500}) {
+    table.resize(size);
+    rows.resize(size);
+    check_same(table, rows);
+    for (size_t k = 0; k < table.block_count(); ++k)
+      CHECK_EQUAL(table.block(k).has_links.size(),
+                  std::min(LinkTable::receivers_of_a_block, size - k * 1024));
   }
 }
 
@@ -100,6 +123,7 @@ int main() {
   const CMUnitTest tests[] = {
       HRAD_TEST(appended_runs_are_there),
       HRAD_TEST(new_receivers_have_no_links),
+      HRAD_TEST(dropped_receivers_take_their_links_along),
       HRAD_TEST(some_runs_are_replaced),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

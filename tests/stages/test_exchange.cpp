@@ -35,9 +35,7 @@ void elements_are_asked_for_once() {
     std::vector<int32_t> owner;
     for (NodeId k = 0; k < surfaces; ++k) owner.push_back(owner_of(k));
     split_all(state.forest, 1);
-    const size_t values = state.forest.nodes.size() * static_cast<size_t>(state.bands);
-    state.radiosity.assign(values, 0);
-    state.irradiance.assign(values, 0);
+    state.resize_light();
     // The children of surface k, which know whose they are.
     const auto child = [&](NodeId surface, int k) {
       return state.forest.nodes[surface].first_child + k;

@@ -86,7 +86,7 @@ void forests_are_well_formed() {
     const NodeId count = static_cast<NodeId>(forest.nodes.size());
     CHECK(count > 4 * forest.surface_count());
     CHECK_EQUAL(bench.state.links.size(), forest.nodes.size());
-    CHECK_EQUAL(bench.state.radiosity.size(), forest.nodes.size() * 3);
+    CHECK_EQUAL(bench.state.radiosity.size(), forest.nodes.size() * 3 + State::floats_beyond);
     CHECK_EQUAL(bench.state.irradiance.size(), forest.nodes.size() * 3);
     for (NodeId id = 0; id < count; ++id) {
       const Node& node = forest.nodes[id];

@@ -169,9 +169,12 @@ void contacts_have_the_light_of_the_exposed_part() {
     CHECK_NEAR(mean, at_points, 1e-6);
   }
   CHECK(own > 0);
-  for (const CornerLight::OwnPoint& point : state.direct.own) {
-    CHECK(point.number >= 0 && point.number < static_cast<int32_t>(state.direct.point_count()));
-    CHECK(point.x > -1e-3 && point.y > -1e-3 && point.x + point.y < 1 + 1e-3);
+  const LeafPoints& of_leaf = state.direct.of_leaf;
+  for (size_t k = 0; k < of_leaf.own_count(); ++k) {
+    CHECK(of_leaf.first_own(k) >= 0 &&
+          of_leaf.first_own(k) + 2 < static_cast<int32_t>(state.direct.point_count()));
+    for (const LeafPoints::Place& place : of_leaf.own(k))
+      CHECK(place.x > -1e-3 && place.y > -1e-3 && place.x + place.y < 1 + 1e-3);
   }
   // Lambert's cosines over the square of the distance, from grid to grid, by rays one at a time.
   constexpr int steps = 120, lamp_steps = 6;
