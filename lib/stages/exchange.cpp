@@ -33,18 +33,19 @@ void Exchange::count(int kind, const std::vector<Bytes>& sent) {
 void Exchange::ask_for_sources(const State& state) {
   if (alone()) return;
   const Forest& forest = state.forest;
+  // Clusters are made of them.
+  const bool roots_are_known = !forest.clusters.empty();
   asked_.resize(forest.nodes.size(), 0);
   std::vector<std::vector<NodeId>> wanted(asked_of_.size());
-  for (size_t block = 0; block < state.links.block_count(); ++block) {
-    for (const Link& link : state.links.block(block).links) {
-      const NodeId source = link.source;
-      const Node& node = forest.nodes[source];
-      // Roots are known to all, and clusters are made of them.
-      if (node.level == 0 || asked_[source] || mine(node.surface)) continue;
-      asked_[source] = 1;
-      wanted[owner_[node.surface]].push_back(source);
-    }
-  }
+  const auto ask = [&](NodeId source) {
+    const Node& node = forest.nodes[source];
+    if ((roots_are_known && node.level == 0) || asked_[source] || mine(node.surface)) return;
+    asked_[source] = 1;
+    wanted[owner_[node.surface]].push_back(source);
+  };
+  for (const LinkTable* table : {&state.links, &state.direct.mean})
+    for (size_t block = 0; block < table->block_count(); ++block)
+      for (const Link& link : table->block(block).links) ask(link.source);
   std::vector<Bytes> to(wanted.size());
   for (size_t rank = 0; rank < wanted.size(); ++rank) {
     put(to[rank], wanted[rank].data(), wanted[rank].size());
@@ -77,7 +78,23 @@ void Exchange::update(State& state) {
   }
 }
 
-void Exchange::share_roots(State& state, std::vector<double>& rows) {
+void Exchange::count_totals(int64_t bytes) {
+  if (bytes == 0) return;
+  counts_.messages[totals] += comm_.size() - 1;
+  counts_.bytes[totals] += bytes * (comm_.size() - 1);
+}
+
+void Exchange::add_up(std::vector<ExactSum>& sums) {
+  if (alone()) return;
+  std::vector<ExactSum::Digits> digits;
+  for (const ExactSum& sum : sums) digits.push_back(sum.digits());
+  const size_t numbers = digits.size() * digits.front().size();
+  count_totals(static_cast<int64_t>(numbers * sizeof(uint64_t)));
+  comm_.add_up({digits.front().data(), numbers});
+  for (size_t k = 0; k < sums.size(); ++k) sums[k] = ExactSum(digits[k]);
+}
+
+void Exchange::share_roots(State& state) {
   if (alone()) return;
   const size_t bands = static_cast<size_t>(state.bands);
   int64_t sent = 0;
@@ -85,19 +102,15 @@ void Exchange::share_roots(State& state, std::vector<double>& rows) {
       comm_, owner_.size(), [&](size_t root) { return owner_[root]; },
       [&](size_t root, Bytes& bytes) {
         const size_t before = bytes.size();
-        put(bytes, &rows[root * bands], bands);
         put(bytes, &state.radiosity[root * bands], bands);
         put(bytes, &state.irradiance[root * bands], bands);
         sent += static_cast<int64_t>(bytes.size() - before);
       },
       [&](size_t root, Taker& taker) {
-        taker.take(&rows[root * bands], bands);
         taker.take(&state.radiosity[root * bands], bands);
         taker.take(&state.irradiance[root * bands], bands);
       });
-  if (sent == 0) return;
-  counts_.messages[totals] += comm_.size() - 1;
-  counts_.bytes[totals] += sent * (comm_.size() - 1);
+  count_totals(sent);
 }
 
 void Exchange::share_light(State& state) const {

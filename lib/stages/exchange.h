@@ -6,13 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/exact_sum.h"
 #include "machine/sharing.h"
 #include "stages/state.h"
 
 namespace hrad {
 
-// By kind: ids of elements whose radiosity is asked for (R), radiosity (U), what roots received and
-// the radiosity transported (T).
+// By kind: ids of elements whose radiosity is asked for (R), radiosity (U), the radiosity
+// transported and, where clusters are made of it, the light on roots (T).
 struct MessageCounts {
   int64_t messages[3] = {0, 0, 0}, bytes[3] = {0, 0, 0};
 };
@@ -73,8 +74,10 @@ class Exchange {
   void ask_for_sources(const State& state);
   // Tells others the radiosity of what they have asked for (U): theirs is here afterwards.
   void update(State& state);
-  // Light on the roots and what each has in `rows`, bands values, known to all (T).
-  void share_roots(State& state, std::vector<double>& rows);
+  // What all processes have added up, a sum for each band (T).
+  void add_up(std::vector<ExactSum>& sums);
+  // Light on the roots, known to all (T).
+  void share_roots(State& state);
   // Light on all elements, known to all.
   void share_light(State& state) const;
   // The hierarchy has gone back to the roots: nothing is asked for any more.
@@ -90,6 +93,7 @@ class Exchange {
 
  private:
   void count(int kind, const std::vector<Bytes>& sent);
+  void count_totals(int64_t bytes);
 
   Comm& comm_;
   std::vector<int32_t> owner_;

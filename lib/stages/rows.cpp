@@ -54,6 +54,7 @@ Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
   reset_to_emission(state);
   const std::vector<uint32_t> blocks = own_blocks(state, tools.exchange);
   for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, blocks);
+  tools.exchange.share_roots(state);
   Brightness light = measure_brightness(state, tools.team, tools.exchange);
   stay_near_the_mean(state, light);
   return light;

@@ -29,19 +29,18 @@ void for_each_surface(const State& state, ThreadTeam& team, const Exchange& exch
 }
 
 // Per surface one row of `bands` sums, made by row_of(root, row), then added in key order: the same
-// bits however many threads.
-// share(rows): makes them known to all.
-template <class RowOf, class Share>
+// bits however many threads and processes.
+template <class RowOf>
 std::vector<double> surface_sums(const State& state, ThreadTeam& team, const Exchange& exchange,
-                                 RowOf&& row_of, const Share& share) {
-  const int bands = state.bands;
+                                 RowOf&& row_of) {
+  const size_t bands = static_cast<size_t>(state.bands);
   std::vector<double> rows(static_cast<size_t>(state.forest.surface_count()) * bands, 0.0);
   for_each_surface(state, team, exchange,
                    [&](NodeId root) { row_of(root, &rows[static_cast<size_t>(root) * bands]); });
-  share(rows);
+  exchange.share_rows(rows, bands, [](size_t k) { return static_cast<int32_t>(k); });
   std::vector<double> total(bands, 0.0);
   for (size_t k = 0; k < rows.size();)
-    for (int b = 0; b < bands; ++b) total[b] += rows[k++];
+    for (size_t b = 0; b < bands; ++b) total[b] += rows[k++];
   return total;
 }
 
@@ -97,23 +96,41 @@ class PushPull {
   const double *emission_, *reflectance_;
 };
 
+// Returns the sums of irradiance times exposed area, each thread having added up some of them.
 template <int Bands>
 std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exchange) {
   const Scene& scene = *state.forest.scene;
-  return surface_sums(
-      state, team, exchange,
-      [&](NodeId root, double* row) {
-        const Surface& surface = state.forest.surfaces[root];
-        const size_t patch = static_cast<size_t>(surface.patch) * state.bands;
-        double weight = 0, from_above[most_bands] = {};
-        const NodeId cluster = state.forest.nodes[root].parent;
-        for (int b = 0; b < state.bands && cluster >= 0; ++b)
-          from_above[b] = state.irradiance[static_cast<size_t>(cluster) * state.bands + b];
-        PushPull<Bands>(state, &scene.emission[patch], &scene.reflectance[patch])
-            .go(root, from_above, row, &weight);
-        for (int b = 0; b < state.bands; ++b) row[b] *= surface.area;
-      },
-      [&](std::vector<double>& rows) { exchange.share_roots(state, rows); });
+  const size_t bands = static_cast<size_t>(state.bands);
+  std::vector<std::vector<ExactSum>> of_thread(static_cast<size_t>(team.size()));
+  for (std::vector<ExactSum>& sums : of_thread) sums.resize(bands);
+  const auto go = [&](NodeId root, std::vector<ExactSum>& sums) {
+    const Surface& surface = state.forest.surfaces[root];
+    const size_t patch = static_cast<size_t>(surface.patch) * bands;
+    double weight = 0, row[most_bands] = {}, from_above[most_bands] = {};
+    const NodeId cluster = state.forest.nodes[root].parent;
+    for (size_t b = 0; b < bands && cluster >= 0; ++b)
+      from_above[b] = state.irradiance[static_cast<size_t>(cluster) * bands + b];
+    PushPull<Bands>(state, &scene.emission[patch], &scene.reflectance[patch])
+        .go(root, from_above, row, &weight);
+    for (size_t b = 0; b < bands; ++b) sums[b].add(row[b] * surface.area);
+  };
+  const size_t roots = static_cast<size_t>(state.forest.surface_count());
+  team.for_each(static_cast<int64_t>(pieces_of(roots, surfaces_of_a_task)),
+                [&](int64_t task, int thread) {
+                  const size_t begin = static_cast<size_t>(task) * surfaces_of_a_task;
+                  const size_t end = std::min(roots, begin + surfaces_of_a_task);
+                  for (size_t k = begin; k < end; ++k) {
+                    const NodeId root = static_cast<NodeId>(k);
+                    if (exchange.mine(root)) go(root, of_thread[static_cast<size_t>(thread)]);
+                  }
+                });
+  std::vector<ExactSum>& sums = of_thread.front();
+  for (size_t thread = 1; thread < of_thread.size(); ++thread)
+    for (size_t b = 0; b < bands; ++b) sums[b].add(of_thread[thread][b]);
+  exchange.add_up(sums);
+  std::vector<double> transported;
+  for (const ExactSum& sum : sums) transported.push_back(sum.value());
+  return transported;
 }
 
 // The sum over the leaves below of f(node id, exposed area), in key order.
@@ -180,7 +197,10 @@ std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange
   std::vector<double> transported = state.bands == 3   ? push_pull_all<3>(state, team, exchange)
                                     : state.bands == 1 ? push_pull_all<1>(state, team, exchange)
                                                        : push_pull_all<0>(state, team, exchange);
-  pull_to_clusters(state);
+  if (!state.forest.clusters.empty()) {
+    exchange.share_roots(state);
+    pull_to_clusters(state);
+  }
   return transported;
 }
 
@@ -211,19 +231,13 @@ void reset_to_emission(State& state) {
 Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange) {
   const double area = state.forest.total_area();
   Brightness brightness;
-  brightness.unit = surface_sums(
-      state, team, exchange,
-      [&](NodeId root, double* row) {
-        visit_leaves(state.forest, root, [&](NodeId id, double leaf_area) {
-          const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
-          for (int b = 0; b < state.bands; ++b)
-            row[b] += leaf_area * static_cast<double>(irradiance[b]) * irradiance[b];
-        });
-      },
-      [&](std::vector<double>& rows) {
-        exchange.share_rows(rows, static_cast<size_t>(state.bands),
-                            [](size_t k) { return static_cast<int32_t>(k); });
-      });
+  brightness.unit = surface_sums(state, team, exchange, [&](NodeId root, double* row) {
+    visit_leaves(state.forest, root, [&](NodeId id, double leaf_area) {
+      const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
+      for (int b = 0; b < state.bands; ++b)
+        row[b] += leaf_area * static_cast<double>(irradiance[b]) * irradiance[b];
+    });
+  });
   for (double& unit : brightness.unit) unit = unit > 0 ? 1 / std::sqrt(unit / area) : 0;
   brightness.of_node.resize(state.forest.nodes.size());
   for (size_t k = 0; k < brightness.of_node.size(); ++k)

@@ -18,8 +18,7 @@ std::vector<uint32_t> own_blocks(const State& state, const Exchange& exchange);
 
 // From what gather() left in state.irradiance makes that and state.radiosity of every node. Means
 // are over the exposed part; a node sealed all over has B = E and H = 0. Returns the radiosity
-// transported: irradiance times exposed area over all leaves, per band, W, added up per surface in
-// key order.
+// transported: irradiance times exposed area over all leaves, per band, W, added up exactly.
 std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange);
 
 // New elements know better than their parents what is sealed: these take the mean of their

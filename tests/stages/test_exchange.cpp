@@ -64,29 +64,80 @@ void elements_are_asked_for_once() {
       return state.radiosity[static_cast<size_t>(id * state.bands)];
     };
     bool right = true;
-    for (NodeId id : {child(next, 0), child(next, 1), child(next, 3), child(last, 2)})
+    for (NodeId id : {next, child(next, 0), child(next, 1), child(next, 3), child(last, 2)})
       right = right && at(id) == static_cast<float>(id + 2000);
     seen[static_cast<size_t>(rank)] = right && at(child(next, 2)) == 0 ? 1.0f : 0.0f;
   });
   const auto id_bytes = static_cast<int64_t>(sizeof(NodeId));
   for (size_t rank = 0; rank < ranks; ++rank) {
     CHECK_EQUAL(counts[0][rank].messages[0], 2);
-    CHECK_EQUAL(counts[0][rank].bytes[0], 3 * id_bytes);
+    CHECK_EQUAL(counts[0][rank].bytes[0], 4 * id_bytes);
     CHECK_EQUAL(counts[1][rank].messages[0], 2);
     CHECK_EQUAL(counts[2][rank].messages[0], 3);
-    CHECK_EQUAL(counts[2][rank].bytes[0], 4 * id_bytes);
+    CHECK_EQUAL(counts[2][rank].bytes[0], 5 * id_bytes);
     CHECK_EQUAL(counts[2][rank].messages[1], 0);
-    // Updates go to two ranks in each of three sweeps: four elements of three bands.
+    // Updates go to two ranks in each of three sweeps: five elements of three bands.
     CHECK_EQUAL(counts[3][rank].messages[0], 3);
     CHECK_EQUAL(counts[3][rank].messages[1], 6);
-    CHECK_EQUAL(counts[3][rank].bytes[1], int64_t{3} * 4 * 3 * static_cast<int64_t>(sizeof(float)));
+    CHECK_EQUAL(counts[3][rank].bytes[1], int64_t{3} * 5 * 3 * static_cast<int64_t>(sizeof(float)));
     CHECK(seen[rank] == 1.0f);
   }
+}
+
+// Numbers whose sum depends on the order in which doubles are added.
+void totals_are_exact() {
+  const double values[ranks] = {1e16, 1, -1e16};
+  std::vector<double> sums(2 * ranks, 0.0);
+  std::vector<MessageCounts> counts(ranks);
+  on_ranks(ranks, [&](Comm& comm) {
+    const size_t rank = static_cast<size_t>(comm.rank());
+    Exchange exchange(comm, {0, 1, 2});
+    std::vector<ExactSum> totals(2);
+    totals[0].add(values[rank]);
+    totals[1].add(0.5);
+    exchange.add_up(totals);
+    for (size_t b = 0; b < 2; ++b) sums[2 * rank + b] = totals[b].value();
+    counts[rank] = exchange.counts();
+  });
+  for (size_t rank = 0; rank < ranks; ++rank) {
+    CHECK_EQUAL(sums[2 * rank], 1.0);
+    CHECK_EQUAL(sums[2 * rank + 1], 1.5);
+    CHECK_EQUAL(counts[rank].messages[2], 2);
+    CHECK_EQUAL(counts[rank].bytes[2], static_cast<int64_t>(2 * 2 * sizeof(ExactSum::Digits)));
+  }
+}
+
+// Once for all, where no process asks.
+void roots_are_shared() {
+  const Scene scene = builtin_scene("cornell");
+  std::vector<uint8_t> right(ranks, 0);
+  on_ranks(ranks, [&](Comm& comm) {
+    State state(scene);
+    std::vector<int32_t> owner;
+    const auto surfaces = static_cast<NodeId>(state.forest.surface_count());
+    for (NodeId k = 0; k < surfaces; ++k) owner.push_back(owner_of(k));
+    Exchange exchange(comm, owner);
+    state.resize_light();
+    const size_t bands = static_cast<size_t>(state.bands);
+    for (size_t k = 0; k < owner.size(); ++k)
+      if (exchange.mine(static_cast<NodeId>(k))) {
+        state.radiosity[k * bands] = static_cast<float>(k + 1);
+        state.irradiance[k * bands] = static_cast<float>(2 * k + 1);
+      }
+    exchange.share_roots(state);
+    bool all = true;
+    for (size_t k = 0; k < owner.size(); ++k)
+      all = all && state.radiosity[k * bands] == static_cast<float>(k + 1) &&
+            state.irradiance[k * bands] == static_cast<float>(2 * k + 1);
+    right[static_cast<size_t>(comm.rank())] = all;
+  });
+  for (uint8_t r : right) CHECK(r);
 }
 
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {HRAD_TEST(elements_are_asked_for_once)};
+  const CMUnitTest tests[] = {HRAD_TEST(elements_are_asked_for_once), HRAD_TEST(totals_are_exact),
+                              HRAD_TEST(roots_are_shared)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
