@@ -120,7 +120,7 @@ class Stats(NamedTuple):
     memory_peak_bytes: int  # of the rank that needed most, as the next two
     link_bytes: int
     node_bytes: int
-    # (3,), between ranks: ids of elements asked for; their radiosity; what arrives and totals.
+    # (3,), between ranks: ids of elements asked for; their radiosity; totals.
     messages: np.ndarray
     message_bytes: np.ndarray
 
