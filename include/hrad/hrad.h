@@ -403,7 +403,7 @@ typedef struct hrad_stats {
   int64_t memory_peak_bytes;  /* of the rank that needed most, as the next two */
   int64_t link_bytes, node_bytes; /* memory of links and of nodes at the end */
   /* Between ranks: [0] R, ids of elements whose radiosity is asked for; [1] U, radiosity of these;
-   * [2] T, the radiosity transported, and the light on patches where clusters are made of them. */
+   * [2] T, the radiosity transported, and the light on patches where all ranks need it. */
   int64_t messages[3], message_bytes[3];
 } hrad_stats;
 

@@ -43,6 +43,11 @@ class PointGuess {
 
 bool can_have_points(const Node& node) { return !Forest::is_cluster(node) && node.first_child < 0; }
 
+// Whatever a file says, without overflow.
+int64_t moved(int64_t from, int64_t by) {
+  return static_cast<int64_t>(static_cast<uint64_t>(from) + static_cast<uint64_t>(by));
+}
+
 constexpr double largest_place = 16;  // of a point in its leaf: within, but for rounding
 
 }  // namespace
@@ -79,7 +84,7 @@ void unpack_points(PackedReader& bytes, int64_t first, int64_t end, State& state
         const uint64_t code = bytes.varint();
         const bool as_known = known >= 0 && code == 0;
         const int64_t number =
-            as_known ? known : guess.next() + from_zigzag(code - (known >= 0 ? 1u : 0u));
+            as_known ? known : moved(guess.next(), from_zigzag(code - (known >= 0 ? 1u : 0u)));
         if (number < 0 || number > most)
           fail_format(bytes.place(), "a point of leaf %lld is %lld: it must be from 0 to %lld",
                       static_cast<long long>(id), static_cast<long long>(number),

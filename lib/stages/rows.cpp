@@ -52,9 +52,11 @@ void stay_near_the_mean(const State& state, Brightness& light) {
 
 Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
   reset_to_emission(state);
+  // Emitters, whose light the leaves have links to before there are rows.
+  tools.exchange.ask_for_sources(state);
   const std::vector<uint32_t> blocks = own_blocks(state, tools.exchange);
   for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, blocks);
-  tools.exchange.share_roots(state);
+  if (state.forest.clusters.empty()) tools.exchange.share_roots(state);
   Brightness light = measure_brightness(state, tools.team, tools.exchange);
   stay_near_the_mean(state, light);
   return light;

@@ -1,6 +1,7 @@
 // Ranks with little or nothing to do: more of them than patches, an emitter on one of them, other
 // numbers of threads on each, two groups of ranks at once. And what they do together: every pair
 // once, every request once.
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -91,6 +92,54 @@ void an_emitter_on_one_rank() {
       std::map<int32_t, int> patches;
       for (int32_t owner : owners) ++patches[owner];
       CHECK_EQUAL(patches.size(), static_cast<size_t>(ranks));
+    }
+  }
+}
+
+// A quadrangle as two patches, seen from where its corners run counter-clockwise.
+void add_quad(SolverRank& one, const std::array<double, 12>& corners, int32_t material) {
+  const int64_t vertex[] = {0, 1, 2, 0, 2, 3};
+  const int32_t kinds[] = {material, material};
+  one.note(hrad_add_patches(one.solver, 4, corners.data(), 2, vertex, kinds));
+}
+
+// A room with two lamps that face each other across a slot, and the slot's floor, far brighter than
+// all else: rank 0 describes it.
+void add_slot_of_lamps(SolverRank& one) {
+  const double emission[] = {3, 2, 1}, bright[] = {.8, .8, .8}, grey[] = {.5, .4, .3};
+  hrad_material material{};
+  material.struct_size = sizeof material;
+  material.reflectance = grey;
+  one.note(hrad_add_material(one.solver, &material, nullptr));
+  material.reflectance = bright;
+  one.note(hrad_add_material(one.solver, &material, nullptr));
+  material.emission = emission;
+  one.note(hrad_add_material(one.solver, &material, nullptr));
+  add_quad(one, {0, 0, 0, 4, 0, 0, 4, 3, 0, 0, 3, 0}, 0);
+  add_quad(one, {0, 0, 3, 0, 3, 3, 4, 3, 3, 4, 0, 3}, 0);
+  add_quad(one, {0, 0, 0, 0, 0, 3, 4, 0, 3, 4, 0, 0}, 0);
+  add_quad(one, {0, 3, 0, 4, 3, 0, 4, 3, 3, 0, 3, 3}, 0);
+  add_quad(one, {0, 0, 0, 0, 3, 0, 0, 3, 3, 0, 0, 3}, 0);
+  add_quad(one, {4, 0, 0, 4, 0, 3, 4, 3, 3, 4, 3, 0}, 0);
+  add_quad(one, {1.9, 1, 1, 1.9, 2, 1, 1.9, 2, 1.5, 1.9, 1, 1.5}, 2);
+  add_quad(one, {2.1, 1, 1, 2.1, 1, 1.5, 2.1, 2, 1.5, 2.1, 2, 1}, 2);
+  add_quad(one, {1.9, 1, 1, 2.1, 1, 1, 2.1, 2, 1, 1.9, 2, 1}, 1);
+}
+
+// What lamps reflect of each other's light is known to all ranks from the beginning.
+void lamps_that_light_each_other() {
+  for (const char* linking : {"pairs", "clusters", "rows"}) {
+    std::vector<Answer> wanted;
+    for (int ranks : {1, 2, 3, 5}) {
+      const auto answers = solve_together(ranks, [&](SolverRank& one) {
+        set(one, linking, 0.1);
+        add_slot_of_lamps(one);
+        one.note(hrad_solve(one.solver));
+        note_answers(one, 18);
+      });
+      CHECK(errors_of(answers).empty());
+      if (ranks == 1) wanted = answers;
+      CHECK(answers == wanted);
     }
   }
 }
@@ -210,11 +259,9 @@ void requests_once_a_round() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(more_ranks_than_patches),
-      HRAD_TEST(an_emitter_on_one_rank),
-      HRAD_TEST(other_threads_on_each_rank),
-      HRAD_TEST(two_groups_at_once),
-      HRAD_TEST(every_pair_once),
+      HRAD_TEST(more_ranks_than_patches),     HRAD_TEST(an_emitter_on_one_rank),
+      HRAD_TEST(lamps_that_light_each_other), HRAD_TEST(other_threads_on_each_rank),
+      HRAD_TEST(two_groups_at_once),          HRAD_TEST(every_pair_once),
       HRAD_TEST(requests_once_a_round),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
