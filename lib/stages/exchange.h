@@ -12,8 +12,8 @@
 
 namespace hrad {
 
-// By kind: ids of elements whose radiosity is asked for (R), radiosity (U), the radiosity transported
-// and, where all need it, the light on roots (T).
+// By kind: ids of elements whose radiosity is asked for (R), radiosity (U), the radiosity
+// transported and, where all need it, the light on roots (T).
 struct MessageCounts {
   int64_t messages[3] = {0, 0, 0}, bytes[3] = {0, 0, 0};
 };

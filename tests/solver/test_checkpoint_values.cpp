@@ -141,6 +141,23 @@ void links_from_no_node_are_refused() {
           Section::point_links, "the source of a link is ");
 }
 
+// The first leaf's first point is number 0, the second one so far away that its number overflows.
+void points_of_no_number_are_refused() {
+  PackedBytes bytes;
+  bytes.byte(1);
+  bytes.varint(0);
+  bytes.varint(~uint64_t{0} - 1);
+  refuses(with(rows(), Section::points, bytes), Section::points, "a point of leaf ");
+}
+
+// The last point of all can't be the first of three.
+void own_points_of_no_leaf_are_refused() {
+  PackedBytes bytes;
+  bytes.signed_varint(rows().points - 1);
+  for (int64_t k = 0; k < 9 * rows().points; ++k) bytes.byte(0);  // as long as it has to be
+  refuses(with(rows(), Section::own_points, bytes), Section::own_points, "own point 0 is ");
+}
+
 // A stream shorter than a 64th of what it holds is followed by zeros, and by nothing else.
 void a_run_is_filled_up_with_zeros_alone() {
   Scene scene = rows().scene;
@@ -172,6 +189,8 @@ int main() {
                               HRAD_TEST(vertices_that_are_nowhere_are_refused),
                               HRAD_TEST(patches_of_no_vertex_or_material_are_refused),
                               HRAD_TEST(links_from_no_node_are_refused),
+                              HRAD_TEST(points_of_no_number_are_refused),
+                              HRAD_TEST(own_points_of_no_leaf_are_refused),
                               HRAD_TEST(a_run_is_filled_up_with_zeros_alone)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
