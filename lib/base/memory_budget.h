@@ -5,8 +5,15 @@
 
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
 namespace hrad {
+
+// What an array takes.
+template <class T>
+int64_t bytes_in(const std::vector<T>& array) {
+  return static_cast<int64_t>(array.capacity() * sizeof(T));
+}
 
 class MemoryBudget {
  public:

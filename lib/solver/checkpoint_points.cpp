@@ -43,11 +43,6 @@ class PointGuess {
 
 bool can_have_points(const Node& node) { return !Forest::is_cluster(node) && node.first_child < 0; }
 
-// Whatever a file says, without overflow.
-int64_t moved(int64_t from, int64_t by) {
-  return static_cast<int64_t>(static_cast<uint64_t>(from) + static_cast<uint64_t>(by));
-}
-
 constexpr double largest_place = 16;  // of a point in its leaf: within, but for rounding
 
 }  // namespace

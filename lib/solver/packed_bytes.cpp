@@ -120,10 +120,7 @@ int64_t PackedReader::count(const char* what, int64_t lowest, int64_t highest) {
 }
 
 int64_t PackedReader::moved(int64_t before, const char* what, int64_t lowest, int64_t highest) {
-  const int64_t difference = signed_varint();
-  // As unsigned numbers, which may overflow.
-  const auto value =
-      static_cast<int64_t>(static_cast<uint64_t>(before) + static_cast<uint64_t>(difference));
+  const int64_t value = hrad::moved(before, signed_varint());
   if (value < lowest || value > highest)
     fail_format(place_, "%s is %lld: it must be from %lld to %lld", what,
                 static_cast<long long>(value), static_cast<long long>(lowest),

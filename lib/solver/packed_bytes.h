@@ -20,6 +20,10 @@ inline uint32_t zigzag32(uint32_t difference) {
   return (difference << 1) ^ (difference & 0x80000000u ? 0xffffffffu : 0u);
 }
 inline uint32_t from_zigzag32(uint32_t code) { return (code >> 1) ^ (code & 1 ? 0xffffffffu : 0u); }
+// A sum of whatever a file says: as unsigned numbers, which may overflow.
+inline int64_t moved(int64_t before, int64_t difference) {
+  return static_cast<int64_t>(static_cast<uint64_t>(before) + static_cast<uint64_t>(difference));
+}
 
 uint32_t bits_of(float value);
 uint64_t bits_of(double value);

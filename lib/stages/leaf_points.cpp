@@ -3,25 +3,16 @@
 
 #include <algorithm>
 
+#include "base/memory_budget.h"
+
 namespace hrad {
-namespace {
-
-template <class T>
-int64_t bytes_in(const std::vector<T>& array) {
-  return static_cast<int64_t>(array.capacity() * sizeof(T));
-}
-
-}  // namespace
 
 int64_t LeafPoints::bytes() const {
   return bytes_in(named_) + bytes_in(own_of_) + shares_.bytes() + owns_.bytes() +
          bytes_in(shared_) + bytes_in(own_);
 }
 
-void LeafPoints::resize(size_t nodes) {
-  named_.resize(nodes, none);
-  size_ = nodes;
-}
+void LeafPoints::resize(size_t nodes) { named_.resize(nodes, none); }
 
 void LeafPoints::name_own(size_t leaf, int32_t first, const Places& places) {
   named_[leaf] = three_from(first);
@@ -55,14 +46,12 @@ void LeafPoints::append(const Numbers& numbers) {
   shares_.push_back(any);
   owns_.push_back(false);
   if (any) shared_.push_back(numbers);
-  ++size_;
 }
 
 void LeafPoints::append_own(int32_t first, const Places& places) {
   shares_.push_back(false);
   owns_.push_back(true);
   own_.push_back({first, places});
-  ++size_;
 }
 
 void LeafPoints::shrink_to_fit() {

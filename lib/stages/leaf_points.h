@@ -23,8 +23,8 @@ class LeafPoints {
   };
   using Places = std::array<Place, 3>;
 
-  bool empty() const { return size_ == 0; }
-  size_t size() const { return size_; }  // nodes
+  bool empty() const { return size() == 0; }
+  size_t size() const { return named_.empty() ? shares_.size() : named_.size(); }  // nodes
   // None where a node has no direct light or is no leaf.
   Numbers operator[](size_t node) const {
     if (!named_.empty()) return named_[node];
@@ -65,7 +65,6 @@ class LeafPoints {
   };
   static Numbers three_from(int32_t first) { return {first, first + 1, first + 2}; }
 
-  size_t size_ = 0;
   std::vector<Numbers> named_;                  // per node, before they are settled
   std::vector<std::pair<size_t, Own>> own_of_;  // likewise, some of them forgotten since
   Presence shares_, owns_;                      // per node

@@ -3,15 +3,6 @@
 
 namespace hrad {
 
-namespace {
-
-template <class T>
-int64_t bytes_in(const std::vector<T>& array) {
-  return static_cast<int64_t>(array.capacity() * sizeof(T));
-}
-
-}  // namespace
-
 int64_t bytes_of_links(const State& state) {
   return state.links.bytes_of_links() + state.direct.mean.bytes_of_links() +
          bytes_in(state.direct.links);
