@@ -133,6 +133,7 @@ void append_json(std::string* text, const SolveReport& report) {
   json.field("elements", stats.elements);
   json.field("leaves", stats.leaves);
   json.field("links", stats.links);
+  json.field("swept_links", stats.swept_links);
   json.field("rays", stats.rays);
   json.field("pairs", stats.pairs);
   json.field("ranks", stats.ranks);

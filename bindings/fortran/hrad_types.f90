@@ -62,7 +62,7 @@ module hrad_types
 
   ! Counts and times, from hrad_get_stats.
   type, bind(c) :: hrad_stats
-    integer(c_size_t) :: struct_size = 248
+    integer(c_size_t) :: struct_size = 256
     integer(c_int32_t) :: converged = 0    ! 1 when the last solve returned HRAD_OK
     integer(c_int32_t) :: ranks = 0
     integer(c_int32_t) :: threads = 0      ! of this rank
@@ -91,6 +91,7 @@ module hrad_types
     integer(c_int64_t) :: node_bytes = 0
     integer(c_int64_t) :: messages(3) = 0       ! R, U, T
     integer(c_int64_t) :: message_bytes(3) = 0  ! R, U, T
+    integer(c_int64_t) :: swept_links = 0       ! of the links, those that sweeps read
   end type hrad_stats
 
   abstract interface

@@ -405,6 +405,8 @@ typedef struct hrad_stats {
   /* Between ranks: [0] R, ids of elements whose radiosity is asked for; [1] U, radiosity of these;
    * [2] T, the radiosity transported, and the light on patches where all ranks need it. */
   int64_t messages[3], message_bytes[3];
+  int64_t swept_links; /* of the links, those that sweeps read; the rest brings direct light to
+                          single points, for pictures and queries */
 } hrad_stats;
 
 /* [C] Counts and times so far; zeros before a solve. After a solve with refine = 0 the first call

@@ -118,6 +118,7 @@ hrad_status hrad_get_stats(const hrad_solver* solver, hrad_stats* stats) {
       full.messages[kind] = from.messages[kind];
       full.message_bytes[kind] = from.message_bytes[kind];
     }
+    full.swept_links = from.swept_links;
     hrad::api::copy_struct_out(full, stats);
   });
 }

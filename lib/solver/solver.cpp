@@ -156,13 +156,14 @@ Stats Solver::stats() const {
   Stats all = counts();
   std::vector<Stats> of_each{all};
   unite(*comm_, of_each);
-  all.rays = all.pairs = all.links = 0;
+  all.rays = all.pairs = all.links = all.swept_links = 0;
   all.cpu_seconds = 0;
   for (int kind = 0; kind < 3; ++kind) all.messages[kind] = all.message_bytes[kind] = 0;
   for (const Stats& s : of_each) {
     all.rays += s.rays;
     all.pairs += s.pairs;
     all.links += s.links;
+    all.swept_links += s.swept_links;
     all.cpu_seconds += s.cpu_seconds;
     all.memory_peak_bytes = std::max(all.memory_peak_bytes, s.memory_peak_bytes);
     all.link_bytes = std::max(all.link_bytes, s.link_bytes);
@@ -189,9 +190,9 @@ Stats Solver::counts() const {
   s.leaves = static_cast<int64_t>(solution.leaves.size());
   s.rays = state.rays;
   s.pairs = state.pairs;
-  s.links = state.links.link_count() + state.direct.mean.link_count() +
-            static_cast<int64_t>(state.direct.links.size()) -
-            links_of_others(state, *solution.exchange);
+  s.swept_links = state.links.link_count() + state.direct.mean.link_count() -
+                  links_of_others(state, *solution.exchange);
+  s.links = s.swept_links + static_cast<int64_t>(state.direct.links.size());
   for (int kind = 0; kind < 3; ++kind) {
     s.messages[kind] = solution.exchange->counts().messages[kind];
     s.message_bytes[kind] = solution.exchange->counts().bytes[kind];

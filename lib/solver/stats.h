@@ -10,7 +10,7 @@ struct Stats {
   int32_t ranks = 1, threads = 1;
   int32_t up_axis = 0;  // 1 y, 2 z, 0 where nobody has said
   int64_t rounds = 0, iterations = 0;
-  int64_t patches = 0, elements = 0, leaves = 0, links = 0;
+  int64_t patches = 0, elements = 0, leaves = 0, links = 0, swept_links = 0;
   int64_t rays = 0, pairs = 0;
   double area = 0, sealed_area = 0, back_share = 0;
   double error_estimate = -1, error_standard_error = 0;

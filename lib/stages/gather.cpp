@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "stages/gather_kernel.h"
+#include "stages/sweep_kernels.h"
 
 namespace hrad {
 namespace {
 
-static_assert(State::floats_beyond >= lanes_of_a_source, "the last source is read beyond its own");
+static_assert(State::floats_beyond >= most_lanes, "the last source is read beyond its own");
 
 // Any number of bands.
 void gather_run(Span<const Link> links, const State& state, float* out) {
@@ -27,9 +27,9 @@ void add_block(const State& state, const LinkTable::Block& block, float* out) {
   uint16_t receivers[LinkTable::receivers_of_a_block];
   size_t runs = 0;
   block.has_links.for_each([&](size_t k) { receivers[runs++] = static_cast<uint16_t>(k); });
-  if (state.bands >= 2 && state.bands <= lanes_of_a_source) {
-    gather_kernels()[0](block.links.data(), block.ends.data(), receivers, runs,
-                        state.radiosity.data(), state.bands, out);
+  if (state.bands >= 2 && state.bands <= most_lanes) {
+    sweep_kernels()[0]->gather(block.links.data(), block.ends.data(), receivers, runs,
+                               state.radiosity.data(), state.bands, out);
     return;
   }
   const size_t bands = static_cast<size_t>(state.bands);

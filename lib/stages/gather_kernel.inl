@@ -1,21 +1,8 @@
-// Included once per instruction set, inside its namespace. Four lanes side by side, which never mix:
-// the same bits whatever the width of the registers. Floor 7 (stages).
-
-using FourFloats = float __attribute__((vector_size(16)));
-using FourDoubles = double __attribute__((vector_size(32)));
+// Included once per instruction set, inside its namespace, behind four_lanes.inl. Gathering.
+// Floor 7 (stages).
 
 // Sources lie all over the memory: they are asked for so many links before they are needed.
 constexpr uint32_t links_ahead = 48;
-
-inline void widen(const float* from, FourDoubles& to) {
-#ifdef __AVX__
-  to = reinterpret_cast<FourDoubles>(_mm256_cvtps_pd(_mm_loadu_ps(from)));
-#else
-  FourFloats narrow;
-  std::memcpy(&narrow, from, sizeof narrow);
-  to = __builtin_convertvector(narrow, FourDoubles);
-#endif
-}
 
 template <int Bands, bool Ahead>
 inline void add_run(const Link* link, const Link* last, const float* sources, FourDoubles& sum) {

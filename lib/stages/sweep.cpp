@@ -6,6 +6,7 @@
 
 #include "machine/pieces.h"
 #include "stages/cluster_sweep.h"
+#include "stages/sweep_kernels.h"
 
 namespace hrad {
 namespace {
@@ -44,74 +45,25 @@ std::vector<double> surface_sums(const State& state, ThreadTeam& team, const Exc
   return total;
 }
 
-// Push and pull below one root. Bands: their number where it is known at compile time, 0 otherwise.
-// E and rho being the same all over a patch, B = E + rho H holds for means too: irradiance alone is
-// pulled.
-template <int Bands>
-class PushPull {
- public:
-  PushPull(State& state, const double* emission, const double* reflectance)
-      : state_(state), emission_(emission), reflectance_(reflectance) {}
-
-  // Adds irradiance times exposed share, and that share, as means over the node's area, to `sum`
-  // and `weight`.
-  void go(NodeId id, const double* from_above, double* sum, double* weight) {
-    const Node& node = state_.forest.nodes[id];
-    if (node.first_child < 0) {
-      double irradiance[room] = {};
-      const float* own = &state_.irradiance[at(id)];
-      for (int b = 0; b < bands(); ++b)
-        irradiance[b] = node.exposed > 0 ? from_above[b] + own[b] : 0;
-      write(id, irradiance);
-      for (int b = 0; b < bands(); ++b) sum[b] += static_cast<double>(node.exposed) * own[b];
-      *weight += node.exposed;
-      return;
-    }
-    double down[room] = {}, below[room] = {}, exposed = 0;
-    for (int b = 0; b < bands(); ++b) down[b] = from_above[b] + state_.irradiance[at(id) + b];
-    for (NodeId child = node.first_child; child < node.first_child + 4; ++child)
-      go(child, down, below, &exposed);
-    for (int b = 0; b < bands(); ++b) {
-      sum[b] += below[b] / 4;
-      below[b] = exposed > 0 ? below[b] / exposed : 0;
-    }
-    write(id, below);
-    *weight += exposed / 4;
-  }
-
- private:
-  static constexpr int room = Bands ? Bands : most_bands;
-
-  int bands() const { return Bands ? Bands : state_.bands; }
-  size_t at(NodeId id) const { return static_cast<size_t>(id) * bands(); }
-  void write(NodeId id, const double* irradiance) {
-    for (int b = 0; b < bands(); ++b) {
-      state_.irradiance[at(id) + b] = static_cast<float>(irradiance[b]);
-      state_.radiosity[at(id) + b] =
-          static_cast<float>(emission_[b] + reflectance_[b] * irradiance[b]);
-    }
-  }
-
-  State& state_;
-  const double *emission_, *reflectance_;
-};
-
 // Returns the sums of irradiance times exposed area, each thread having added up some of them.
-template <int Bands>
 std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exchange) {
   const Scene& scene = *state.forest.scene;
   const size_t bands = static_cast<size_t>(state.bands);
+  const PushPull push_pull = sweep_kernels()[0]->push_pull;
   std::vector<std::vector<ExactSum>> of_thread(static_cast<size_t>(team.size()));
   for (std::vector<ExactSum>& sums : of_thread) sums.resize(bands);
   const auto go = [&](NodeId root, std::vector<ExactSum>& sums) {
     const Surface& surface = state.forest.surfaces[root];
     const size_t patch = static_cast<size_t>(surface.patch) * bands;
-    double weight = 0, row[most_bands] = {}, from_above[most_bands] = {};
+    double row[most_bands], from_above[most_bands];
     const NodeId cluster = state.forest.nodes[root].parent;
-    for (size_t b = 0; b < bands && cluster >= 0; ++b)
-      from_above[b] = state.irradiance[static_cast<size_t>(cluster) * bands + b];
-    PushPull<Bands>(state, &scene.emission[patch], &scene.reflectance[patch])
-        .go(root, from_above, row, &weight);
+    for (size_t b = 0; b < bands; ++b)
+      from_above[b] =
+          cluster < 0 ? 0 : state.irradiance[static_cast<size_t>(cluster) * bands + b];
+    push_pull({state.forest.nodes.data(), root, state.bands, &scene.emission[patch],
+               &scene.reflectance[patch], from_above, state.irradiance.data(),
+               state.radiosity.data()},
+              row);
     for (size_t b = 0; b < bands; ++b) sums[b].add(row[b] * surface.area);
   };
   const size_t roots = static_cast<size_t>(state.forest.surface_count());
@@ -194,9 +146,7 @@ std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange,
 
 std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange) {
   push_to_roots(state);
-  std::vector<double> transported = state.bands == 3   ? push_pull_all<3>(state, team, exchange)
-                                    : state.bands == 1 ? push_pull_all<1>(state, team, exchange)
-                                                       : push_pull_all<0>(state, team, exchange);
+  std::vector<double> transported = push_pull_all(state, team, exchange);
   if (!state.forest.clusters.empty()) {
     exchange.share_roots(state);
     pull_to_clusters(state);

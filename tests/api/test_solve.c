@@ -271,6 +271,7 @@ static void statistics_are_filled(void** state) {
   assert_int_equal(stats.patches, patch_count(cornell));
   assert_int_equal(stats.leaves, leaves);
   assert_true(stats.elements >= stats.leaves && stats.links > 0 && stats.rays > 0);
+  assert_true(stats.swept_links > 0 && stats.swept_links < stats.links);
   assert_true(stats.iterations > 0 && stats.area > 0);
   assert_true(stats.back_share >= 0 && stats.back_share <= 1);
   assert_true(stats.error_estimate >= 0 && stats.error_estimate <= 0.1);

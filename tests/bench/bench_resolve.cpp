@@ -53,10 +53,10 @@ void measure(const std::string& scene, const Settings& settings, int resolves, R
 
 void print(const std::string& scene, const Resolves& r, double calibration) {
   const hrad_stats& s = r.stats;
-  const double swept = real(s.links) * r.sweeps;
-  std::printf("%s, %lld patches, %lld elements, %lld links; calibration loop %.3f s\n",
+  const double swept = real(s.swept_links) * r.sweeps;
+  std::printf("%s, %lld patches, %lld elements, %lld links swept of %lld; calibration loop %.3f s\n",
               scene.c_str(), static_cast<long long>(s.patches), static_cast<long long>(s.elements),
-              static_cast<long long>(s.links), calibration);
+              static_cast<long long>(s.swept_links), static_cast<long long>(s.links), calibration);
   std::printf("  first solve    %.3f s of user CPU, %.2f loops\n", r.first, r.first / calibration);
   std::printf("  re-solve       %.4f s (median; fastest %.4f), %.3f loops, %.1f sweeps\n", r.median,
               r.fastest, r.median / calibration, r.sweeps);

@@ -137,4 +137,5 @@ void reference_take_apart(const hrad_patch *patch, const hrad_rank_load *load,
   *to++ = (double)stats->node_bytes;
   for (i = 0; i < 3; ++i) *to++ = (double)stats->messages[i];
   for (i = 0; i < 3; ++i) *to++ = (double)stats->message_bytes[i];
+  *to++ = (double)stats->swept_links;
 }

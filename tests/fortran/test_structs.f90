@@ -9,7 +9,7 @@ program test_structs
   type(hrad_patch) :: patch
   type(hrad_rank_load) :: load
   type(hrad_stats) :: stats
-  double precision :: patch_fields(13), load_fields(9), stats_fields(32)
+  double precision :: patch_fields(13), load_fields(9), stats_fields(33)
   integer(c_int64_t) :: sizes(3)
   integer :: i
 
@@ -33,11 +33,11 @@ program test_structs
     seconds_initial=19d0, seconds_linking=20d0, seconds_iterative=21d0, seconds_output=22d0, &
     cpu_seconds=23d0, memory_peak_bytes=24, link_bytes=25, node_bytes=26, &
     messages=[27_c_int64_t, 28_c_int64_t, 29_c_int64_t], &
-    message_bytes=[30_c_int64_t, 31_c_int64_t, 32_c_int64_t])
+    message_bytes=[30_c_int64_t, 31_c_int64_t, 32_c_int64_t], swept_links=33)
 
   call reference_take_apart(patch, load, stats, patch_fields, load_fields, stats_fields)
   call expect(all(patch_fields == [(dble(i), i=1, 13)]), "the fields of hrad_patch")
   call expect(all(load_fields == [(dble(i), i=1, 9)]), "the fields of hrad_rank_load")
-  call expect(all(stats_fields == [(dble(i), i=1, 32)]), "the fields of hrad_stats")
+  call expect(all(stats_fields == [(dble(i), i=1, 33)]), "the fields of hrad_stats")
   call finish_checks()
 end program test_structs

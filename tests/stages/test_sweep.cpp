@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "stages/gather.h"
-#include "stages/gather_kernel.h"
+#include "stages/sweep_kernels.h"
 #include "stages/sweep.h"
 #include "support/workbench.h"
 #include "visibility/brute_force.h"
@@ -208,19 +208,19 @@ void kernels_agree_to_the_bit() {
     with_links.push_back(static_cast<uint16_t>(k));
   }
   links.back() = {nodes - 1, 0.5f};
-  for (int bands = 2; bands <= lanes_of_a_source; ++bands) {
+  for (int bands = 2; bands <= most_lanes; ++bands) {
     std::vector<float> sources, narrow(receivers * bands, 1.0f);
     for (uint64_t k = 0; k < nodes * bands; ++k)
       sources.push_back(static_cast<float>(unit_interval(mix(k, 4))));
-    sources.resize(sources.size() + lanes_of_a_source);
-    gather_runs_sse2(links.data(), ends.data(), with_links.data(), ends.size(), sources.data(),
-                     bands, narrow.data());
+    sources.resize(sources.size() + most_lanes);
+    sweep_kernels_sse2.gather(links.data(), ends.data(), with_links.data(), ends.size(),
+                              sources.data(), bands, narrow.data());
     for (size_t k = 0; k < receivers; ++k)
       for (int b = 0; b < bands; ++b) CHECK((narrow[k * bands + b] > 1) == (k % 5 != 0));
-    for (GatherRuns kernel : gather_kernels()) {
+    for (const SweepKernels* kernels : sweep_kernels()) {
       std::vector<float> other(narrow.size(), 1.0f);
-      kernel(links.data(), ends.data(), with_links.data(), ends.size(), sources.data(), bands,
-             other.data());
+      kernels->gather(links.data(), ends.data(), with_links.data(), ends.size(), sources.data(),
+                      bands, other.data());
       CHECK(other == narrow);
     }
   }

@@ -45,7 +45,8 @@ class CStats(ctypes.Structure):
                 ("seconds_linking", c_double), ("seconds_iterative", c_double),
                 ("seconds_output", c_double), ("cpu_seconds", c_double),
                 ("memory_peak_bytes", c_int64), ("link_bytes", c_int64), ("node_bytes", c_int64),
-                ("messages", c_int64 * 3), ("message_bytes", c_int64 * 3)]
+                ("messages", c_int64 * 3), ("message_bytes", c_int64 * 3),
+                ("swept_links", c_int64)]
 
 
 class Param(NamedTuple):
@@ -123,6 +124,7 @@ class Stats(NamedTuple):
     # (3,), between ranks: ids of elements asked for; their radiosity; totals.
     messages: np.ndarray
     message_bytes: np.ndarray
+    swept_links: int  # of the links, those that sweeps read; the rest is for single points
 
 
 class Leaves(NamedTuple):

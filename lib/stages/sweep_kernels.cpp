@@ -1,20 +1,20 @@
 // Run-time choice by what the processor has. Floor 7 (stages).
-#include "stages/gather_kernel.h"
+#include "stages/sweep_kernels.h"
 
 namespace hrad {
 namespace {
 
-constexpr GatherRuns kernels[] = {
+constexpr const SweepKernels* kernels[] = {
 #ifdef HRAD_X86_KERNELS
-    gather_runs_avx2,
+    &sweep_kernels_avx2,
 #endif
-    gather_runs_sse2,
+    &sweep_kernels_sse2,
 };
 constexpr size_t count = sizeof kernels / sizeof kernels[0];
 
 }  // namespace
 
-Span<const GatherRuns> gather_kernels() {
+Span<const SweepKernels* const> sweep_kernels() {
 #ifdef HRAD_X86_KERNELS
   if (!__builtin_cpu_supports("avx2")) return {kernels + 1, count - 1};
 #endif

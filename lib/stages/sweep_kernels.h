@@ -1,0 +1,46 @@
+// The inner loops of an iteration, compiled for several instruction sets with the same bits: sums
+// of weight times radiosity over runs of links, and push and pull below a root. Floor 7 (stages).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/span.h"
+#include "hierarchy/forest.h"
+#include "links/link.h"
+
+namespace hrad {
+
+// The values of a node are taken so many at a time.
+constexpr int most_lanes = 4;
+
+// For two to four bands. Run k ends at ends[k], where the next one begins. sources: bands values per node, and most_lanes
+// more that don't count. Adds to the bands values of `out` of receivers[k] a sum in double
+// precision, in the order of the run.
+using GatherRuns = void (*)(const Link* links, const uint32_t* ends, const uint16_t* receivers,
+                            size_t runs, const float* sources, int bands, float* out);
+
+// Of one tree.
+struct PushPullTree {
+  const Node* nodes;
+  NodeId root;
+  int bands;
+  const double *emission, *reflectance, *from_above;  // bands values
+  float *irradiance, *radiosity;                      // of all nodes, bands values each
+};
+// E and rho being the same all over a patch, B = E + rho H holds for means too: irradiance alone is
+// pulled. Returns in `sum` the leaves' irradiance times exposed share, as the mean over the root's
+// area.
+using PushPull = void (*)(const PushPullTree& tree, double* sum);
+
+struct SweepKernels {
+  GatherRuns gather;
+  PushPull push_pull;
+};
+
+// Those that this processor can run, the widest first.
+Span<const SweepKernels* const> sweep_kernels();
+
+extern const SweepKernels sweep_kernels_sse2, sweep_kernels_avx2;
+
+}  // namespace hrad
