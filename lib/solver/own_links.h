@@ -7,6 +7,6 @@
 namespace hrad {
 
 // Drops the links of other owners' receivers and what goes with them, of a state that has all.
-void keep_own_links(State& state, const Exchange& exchange);
+void keep_own_links(State& state, const Exchange& exchange, ThreadTeam& team);
 
 }  // namespace hrad

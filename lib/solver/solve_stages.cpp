@@ -56,7 +56,7 @@ StageTools Solver::Run::tools(int oracle_round) {
 }
 
 void Solver::Run::begin_from_emission(int round) {
-  reset_to_emission(state_);
+  reset_to_emission(state_, *solution_.team);
   begin_sweeps(round);
   solution_.from_emission = true;
   solution_.earlier_sweeps = solver_.stats_.iterations;
@@ -109,7 +109,7 @@ void Solver::Run::forget_journal() {
 bool Solver::Run::link_by_pairs() {
   StageTools stage = tools(0);
   if (!measure_roots(state_, stage)) return false;
-  reset_to_emission(state_);
+  reset_to_emission(state_, stage.team);
   state_.links.resize(state_.forest.nodes.size());
   return link_pairs(state_, stage, expected_brightness(state_));
 }
@@ -119,7 +119,7 @@ bool Solver::Run::link_by_clusters() {
   if (!measure_roots(state_, stage)) return false;
   if (state_.forest.clusters.empty()) add_clusters(state_.forest);
   state_.links.resize(state_.forest.nodes.size());
-  reset_to_emission(state_);
+  reset_to_emission(state_, stage.team);
   return hrad::link_clusters(state_, stage, expected_brightness(state_));
 }
 
@@ -141,7 +141,7 @@ bool Solver::Run::round() {
   const auto start = std::chrono::steady_clock::now();
   // The last round tells best what surfaces cost; before the first one there are their links.
   if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
-  rebalance(state_, exchange_, work_);
+  rebalance(state_, *solution_.team, exchange_, work_);
   begin_journal(static_cast<uint64_t>(number));
   const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
   const bool done = refine_links(state_, tools(number), brightness, &work_);

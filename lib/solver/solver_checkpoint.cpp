@@ -114,9 +114,9 @@ void Solver::take_over(CheckpointContent& content) {
     state.direct = std::move(content.state->direct);
     state.radiosity = std::move(content.state->radiosity);
     state.irradiance = std::move(content.state->irradiance);
-    keep_own_links(state, *s.exchange);
+    keep_own_links(state, *s.exchange, *s.team);
     s.exchange->forget();
-    s.exchange->ask_for_sources(state);
+    s.exchange->ask_for_sources(state, *s.team);
   });
   if (content.state) s.leaves = state.forest.leaves();
 }

@@ -71,24 +71,17 @@ CornerSampler::Wanted CornerSampler::wanted_of(uint64_t key) const {
           name_of_corner(surface, point), moved_inwards(surface, point_of(surface, point))};
 }
 
-CornerSampler::Wanted CornerSampler::own_of(NodeId element, int which, Vec3 place) const {
-  const Node& node = state_.forest.nodes[element];
-  return {node.surface, mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(which)),
-          name_of_element(state_.forest, element, which), place};
+CornerSampler::Wanted CornerSampler::own_of(const OwnPoint& point) const {
+  const Node& node = state_.forest.nodes[point.element];
+  return {node.surface, mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(point.which)),
+          name_of_element(state_.forest, point.element, point.which), point.place};
 }
 
-int32_t CornerSampler::add(NodeId element, int which, Vec3 place) {
-  wanted_.push_back(own_of(element, which, place));
-  return static_cast<int32_t>(asked()) - 1;
-}
-
-void CornerSampler::add_middles(const std::vector<NodeId>& elements, int which) {
+void CornerSampler::add(const std::vector<OwnPoint>& points) {
   const size_t before = wanted_.size();
-  wanted_.resize(before + elements.size());
-  for_each_thing(tools_.team, elements.size(), [&](size_t k) {
-    const Triangle t = state_.forest.triangle(state_.forest.nodes[elements[k]]);
-    wanted_[before + k] = own_of(elements[k], which, t.centroid());
-  });
+  wanted_.resize(before + points.size());
+  for_each_thing(tools_.team, points.size(),
+                 [&](size_t k) { wanted_[before + k] = own_of(points[k]); });
 }
 
 Vec3 CornerSampler::point_of(int32_t surface, LatticePoint point) const {
@@ -229,7 +222,7 @@ void CornerSampler::keep_what_is_named() {
   state_.direct.of_leaf.settle();
   const Emitters& emitters = grid_.emitters();
   number_points_by_leaves(
-      state_.direct, value_.size(), [](NodeId) { return true; },
+      state_.direct, value_.size(),
       [&](int32_t point) -> Span<const Link> {
         const Place& p = place_[static_cast<size_t>(point)];
         const Vec3 normal = state_.forest.surfaces[p.surface].normal;
@@ -242,7 +235,7 @@ void CornerSampler::keep_what_is_named() {
                 static_cast<size_t>(std::remove_if(links.begin(), links.end(), is_not_bright) -
                                     links.begin())};
       },
-      &tools_.team);
+      tools_.team);
 }
 
 }  // namespace hrad

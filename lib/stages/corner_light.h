@@ -19,6 +19,13 @@ struct ElementPoints {
   PointsOf which;
 };
 
+// A point that is an element's own; `which` tells apart those of one element.
+struct OwnPoint {
+  NodeId element;
+  int which;
+  Vec3 place;
+};
+
 class CornerSampler {
  public:
   // All must outlive this. Empties state.direct.
@@ -44,11 +51,9 @@ class CornerSampler {
     return number_.find(key_of_corner(surface, point));
   }
 
-  // Asks for the light at a point that is an element's own, and gives it a number; `which` tells
-  // apart those of one element.
-  int32_t add(NodeId element, int which, Vec3 place);
-  // The same of the middles of many elements, whose numbers follow each other from asked() on.
-  void add_middles(const std::vector<NodeId>& elements, int which);
+  // Asks for the light at points that are elements' own, whose numbers follow each other from
+  // asked() on.
+  void add(const std::vector<OwnPoint>& points);
   // The links of the points from number `first` on are not needed any more.
   void forget_links(size_t first);
   // Three points that have the mean of every quadratic field over the exposed part of an element
@@ -68,7 +73,7 @@ class CornerSampler {
     Vec3 place;
   };
   Wanted wanted_of(uint64_t key) const;
-  Wanted own_of(NodeId element, int which, Vec3 place) const;
+  Wanted own_of(const OwnPoint& point) const;
   OrientedPoint point_of(const Wanted& wanted) const;
   bool sample_some(size_t first, size_t end, double work);
   void count_links(size_t more);

@@ -1,7 +1,11 @@
 // Requests, updates and totals. Floor 7 (stages).
 #include "stages/exchange.h"
 
+#include <algorithm>
+#include <atomic>
 #include <utility>
+
+#include "machine/pieces.h"
 
 namespace hrad {
 namespace {
@@ -30,22 +34,28 @@ void Exchange::count(int kind, const std::vector<Bytes>& sent) {
   }
 }
 
-void Exchange::ask_for_sources(const State& state) {
+void Exchange::ask_for_sources(const State& state, ThreadTeam& team) {
   if (alone()) return;
   const Forest& forest = state.forest;
+  std::vector<std::atomic<uint8_t>> is_source(forest.nodes.size());
+  for (const LinkTable* table : {&state.links, &state.direct.mean})
+    team.for_each(static_cast<int64_t>(table->block_count()), [&](int64_t block, int) {
+      for (const Link& link : table->block(static_cast<size_t>(block)).links)
+        is_source[static_cast<size_t>(link.source)].store(1, std::memory_order_relaxed);
+    });
   // Clusters are made of them.
   const bool roots_are_known = !forest.clusters.empty();
   asked_.resize(forest.nodes.size(), 0);
+  const std::vector<NodeId> of_others =
+      gathered<NodeId>(team, forest.nodes.size(), [&](size_t k, std::vector<NodeId>& some) {
+        if (!is_source[k].load(std::memory_order_relaxed) || asked_[k]) return;
+        const Node& node = forest.nodes[k];
+        if ((roots_are_known && node.level == 0) || mine(node.surface)) return;
+        asked_[k] = 1;
+        some.push_back(static_cast<NodeId>(k));
+      });
   std::vector<std::vector<NodeId>> wanted(asked_of_.size());
-  const auto ask = [&](NodeId source) {
-    const Node& node = forest.nodes[source];
-    if ((roots_are_known && node.level == 0) || asked_[source] || mine(node.surface)) return;
-    asked_[source] = 1;
-    wanted[owner_[node.surface]].push_back(source);
-  };
-  for (const LinkTable* table : {&state.links, &state.direct.mean})
-    for (size_t block = 0; block < table->block_count(); ++block)
-      for (const Link& link : table->block(block).links) ask(link.source);
+  for (NodeId source : of_others) wanted[owner_[forest.nodes[source].surface]].push_back(source);
   std::vector<Bytes> to(wanted.size());
   for (size_t rank = 0; rank < wanted.size(); ++rank) {
     put(to[rank], wanted[rank].data(), wanted[rank].size());
@@ -60,22 +70,25 @@ void Exchange::ask_for_sources(const State& state) {
   }
 }
 
-void Exchange::update(State& state) {
+void Exchange::update(State& state, ThreadTeam& team) {
   if (alone()) return;
-  const size_t bands = static_cast<size_t>(state.bands);
+  const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
+  const auto values_of = [&](NodeId id) {
+    return reinterpret_cast<char*>(&state.radiosity[static_cast<size_t>(id) * bands]);
+  };
   std::vector<Bytes> to(asked_by_.size());
   for (size_t rank = 0; rank < to.size(); ++rank) {
-    to[rank].reserve(asked_by_[rank].size() * bands * sizeof(float));
-    for (NodeId id : asked_by_[rank])
-      put(to[rank], &state.radiosity[static_cast<size_t>(id) * bands], bands);
+    to[rank].resize(asked_by_[rank].size() * bytes);
+    for_each_thing(team, asked_by_[rank].size(), [&](size_t k) {
+      std::copy_n(values_of(asked_by_[rank][k]), bytes, &to[rank][k * bytes]);
+    });
   }
   count(updates, to);
   const std::vector<Bytes> from = comm_.exchange(std::move(to));
-  for (size_t rank = 0; rank < from.size(); ++rank) {
-    Taker taker(from[rank]);
-    for (NodeId id : asked_of_[rank])
-      taker.take(&state.radiosity[static_cast<size_t>(id) * bands], bands);
-  }
+  for (size_t rank = 0; rank < from.size(); ++rank)
+    for_each_thing(team, asked_of_[rank].size(), [&](size_t k) {
+      std::copy_n(&from[rank][k * bytes], bytes, values_of(asked_of_[rank][k]));
+    });
 }
 
 void Exchange::count_totals(int64_t bytes) {

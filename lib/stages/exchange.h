@@ -71,9 +71,9 @@ class Exchange {
   }
 
   // Asks for the elements that own links have begun to name since the last time (R).
-  void ask_for_sources(const State& state);
+  void ask_for_sources(const State& state, ThreadTeam& team);
   // Tells others the radiosity of what they have asked for (U): theirs is here afterwards.
-  void update(State& state);
+  void update(State& state, ThreadTeam& team);
   // What all processes have added up, a sum for each band (T).
   void add_up(std::vector<ExactSum>& sums);
   // Light on the roots, known to all (T).
@@ -98,7 +98,7 @@ class Exchange {
   Comm& comm_;
   std::vector<int32_t> owner_;
   std::vector<uint8_t> asked_;                 // per node
-  std::vector<std::vector<NodeId>> asked_of_;  // per rank, in the order of asking
+  std::vector<std::vector<NodeId>> asked_of_;  // per rank, ascending at each time of asking
   std::vector<std::vector<NodeId>> asked_by_;  // likewise
   MessageCounts counts_;
 };

@@ -85,19 +85,19 @@ bool LeafLight::name() {
                                      if (!take_corners(leaves[k]))
                                        partly_sealed.push_back(leaves[k]);
                                    }));
-  std::vector<uint8_t> wants_its_middle(leaves.size());
-  for_each_thing(tools_.team, leaves.size(), [&](size_t k) {
-    wants_its_middle[k] = forest_.nodes[leaves[k]].light_points == at_corners;
-  });
-  std::vector<NodeId> wanted;
+  const std::vector<size_t> wanted =
+      gathered<size_t>(tools_.team, leaves.size(), [&](size_t k, std::vector<size_t>& some) {
+        if (forest_.nodes[leaves[k]].light_points == at_corners) some.push_back(k);
+      });
   std::vector<int32_t> centroids(leaves.size(), -1);
-  for (size_t k = 0; k < leaves.size(); ++k) {
-    if (!wants_its_middle[k]) continue;
-    centroids[k] = static_cast<int32_t>(corners_.asked()) + static_cast<int32_t>(wanted.size());
-    wanted.push_back(leaves[k]);
-  }
+  std::vector<OwnPoint> middles(wanted.size());
   const auto first_middle = static_cast<size_t>(corners_.asked());
-  corners_.add_middles(wanted, number_of_centroid);
+  for_each_thing(tools_.team, wanted.size(), [&](size_t k) {
+    const NodeId leaf = leaves[wanted[k]];
+    centroids[wanted[k]] = static_cast<int32_t>(first_middle + k);
+    middles[k] = {leaf, number_of_centroid, middle_of(forest_, leaf).place};
+  });
+  corners_.add(middles);
   const auto its_middle = [&](size_t k) { return keyed_middle_of(forest_, leaves[k]); };
   if (!open_cubes(grid_, leaves.size(), its_middle, state_, tools_)) return false;
   if (!corners_.sample(work_of_a_middle)) return false;
@@ -140,28 +140,32 @@ void LeafLight::take_own_points(const std::vector<NodeId>& leaves) {
   struct Found {
     bool any = false;
     Vec3 place[3];
+    LeafPoints::Places within;
   };
   std::vector<Found> found(leaves.size());
-  tools_.team.for_each(static_cast<int64_t>(leaves.size()), [&](int64_t k, int) {
-    LatticePoint corner[3];
-    lattice_corners(forest_.nodes[leaves[k]], corner);
-    found[k].any = corners_.points_of_exposed(leaves[k], corner, found[k].place);
-  });
-  for (size_t k = 0; k < leaves.size(); ++k) {
+  tools_.team.for_each(static_cast<int64_t>(leaves.size()), [&](int64_t task, int) {
+    const size_t k = static_cast<size_t>(task);
     Node& node = forest_.nodes[leaves[k]];
     node.light_points = at_own_points;
-    if (!found[k].any) continue;
+    LatticePoint corner[3];
+    lattice_corners(node, corner);
+    found[k].any = corners_.points_of_exposed(leaves[k], corner, found[k].place);
     const Triangle triangle = forest_.triangle(node);
-    LeafPoints::Numbers number;
-    LeafPoints::Places places;
-    for (int c = 0; c < 3; ++c) {
-      number[c] = corners_.add(leaves[k], c, found[k].place[c]);
+    for (int c = 0; c < 3 && found[k].any; ++c) {
       double x, y;
       coordinates_in(triangle, found[k].place[c], &x, &y);
-      places[c] = {static_cast<float>(x), static_cast<float>(y)};
+      found[k].within[static_cast<size_t>(c)] = {static_cast<float>(x), static_cast<float>(y)};
     }
-    state_.direct.of_leaf.name_own(static_cast<size_t>(leaves[k]), number[0], places);
+  });
+  std::vector<OwnPoint> points;
+  points.reserve(3 * leaves.size());
+  for (size_t k = 0; k < leaves.size(); ++k) {
+    if (!found[k].any) continue;
+    const auto first = static_cast<int32_t>(corners_.asked()) + static_cast<int32_t>(points.size());
+    state_.direct.of_leaf.name_own(static_cast<size_t>(leaves[k]), first, found[k].within);
+    for (int c = 0; c < 3; ++c) points.push_back({leaves[k], c, found[k].place[c]});
   }
+  corners_.add(points);
 }
 
 LeafLight::Shares LeafLight::shares_of_mean(NodeId leaf, int32_t centroid) const {

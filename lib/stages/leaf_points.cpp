@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/memory_budget.h"
+#include "machine/pieces.h"
 
 namespace hrad {
 
@@ -39,6 +40,29 @@ void LeafPoints::settle() {
     }
   settled.shrink_to_fit();
   *this = std::move(settled);
+}
+
+void LeafPoints::renumber(const std::vector<int32_t>& number, ThreadTeam& team) {
+  for_each_thing(team, shared_.size(), [&](size_t k) {
+    for (int32_t& point : shared_[k]) point = number[static_cast<size_t>(point)];
+  });
+  for_each_thing(team, own_.size(),
+                 [&](size_t k) { own_[k].first = number[static_cast<size_t>(own_[k].first)]; });
+}
+
+void LeafPoints::keep(const std::function<bool(size_t leaf)>& holds) {
+  LeafPoints kept;
+  for (size_t leaf = 0; leaf < size(); ++leaf) {
+    const Places* own = own_places(leaf);
+    if (!holds(leaf))
+      kept.append(none);
+    else if (own)
+      kept.append_own((*this)[leaf][0], *own);
+    else
+      kept.append((*this)[leaf]);
+  }
+  kept.shrink_to_fit();
+  *this = std::move(kept);
 }
 
 void LeafPoints::append(const Numbers& numbers) {

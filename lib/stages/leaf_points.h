@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "hierarchy/forest.h"
 
 namespace hrad {
+
+class ThreadTeam;
 
 class LeafPoints {
  public:
@@ -50,6 +53,11 @@ class LeafPoints {
   void forget(size_t leaf) { named_[leaf] = none; }
   // All are named: less room, and places can be looked up.
   void settle();
+
+  // Of settled ones. number: the new one of each point that is named.
+  void renumber(const std::vector<int32_t>& number, ThreadTeam& team);
+  // Leaves for which this doesn't hold have none any more.
+  void keep(const std::function<bool(size_t leaf)>& holds);
 
   // Naming in the order of the nodes, each once; settled all along. reserve(): room for so many
   // that share points.

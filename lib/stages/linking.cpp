@@ -220,7 +220,7 @@ bool link_pairs(State& state, const StageTools& tools, const Brightness& brightn
   memory.take(2 * search.bytes_found(), "links");  // each in both directions, in two places a while
   state.links = search.collect(from_others);
   memory.settle();
-  tools.exchange.ask_for_sources(state);
+  tools.exchange.ask_for_sources(state, tools.team);
   return true;
 }
 

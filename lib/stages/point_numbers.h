@@ -8,11 +8,10 @@
 
 namespace hrad {
 
-// Keeps of so many points those that these leaves name; other leaves have none then. links_of: what
-// such a point keeps, asked for once, on the threads of a team if there is one.
+// Keeps of so many points those that the leaves name, once these are settled. links_of: what such a
+// point keeps, asked for once, by any thread of the team.
 void number_points_by_leaves(CornerLight& direct, size_t points,
-                             const std::function<bool(NodeId leaf)>& keep_leaf,
                              const std::function<Span<const Link>(int32_t point)>& links_of,
-                             ThreadTeam* team = nullptr);
+                             ThreadTeam& team);
 
 }  // namespace hrad

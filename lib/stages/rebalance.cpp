@@ -35,7 +35,7 @@ std::vector<int32_t> owners_by(const State& state, const std::vector<double>& wo
 }
 
 // Runs of elements whose surface has another owner now.
-void move_links(State& state, Exchange& exchange, std::vector<int32_t> owners) {
+void move_links(State& state, ThreadTeam& team, Exchange& exchange, std::vector<int32_t> owners) {
   Comm& comm = exchange.comm();
   const std::vector<Node>& nodes = state.forest.nodes;
   std::vector<Bytes> to(static_cast<size_t>(comm.size()));
@@ -63,9 +63,9 @@ void move_links(State& state, Exchange& exchange, std::vector<int32_t> owners) {
       receivers.push_back(static_cast<NodeId>(k));
   }
   for (size_t k = 0; k < receivers.size(); ++k) runs.push_back({receivers[k], arrived[k]});
-  state.links.replace(std::move(runs));
+  state.links.replace(std::move(runs), &team);
   exchange.deal_out(std::move(owners));
-  exchange.ask_for_sources(state);
+  exchange.ask_for_sources(state, team);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ std::vector<double> links_of_surfaces(const State& state, const Exchange& exchan
   return links;
 }
 
-void rebalance(State& state, Exchange& exchange, std::vector<double> work) {
+void rebalance(State& state, ThreadTeam& team, Exchange& exchange, std::vector<double> work) {
   if (exchange.alone()) return;
   const int ranks = exchange.comm().size();
   std::vector<double> links = links_of_surfaces(state, exchange);
@@ -99,7 +99,7 @@ void rebalance(State& state, Exchange& exchange, std::vector<double> work) {
   const double gain = before - largest_load(work, owners, ranks);
   if (!(gain > least_gain * before && gain > work_of_a_move * moved / ranks * all_work / all_links))
     return;
-  move_links(state, exchange, std::move(owners));
+  move_links(state, team, exchange, std::move(owners));
 }
 
 }  // namespace hrad

@@ -11,7 +11,7 @@ namespace hrad {
 
 // Collective; before a round of refinement. work: that of each of this process's own surfaces, in
 // any unit, as it is expected to be. A clock may have told it, as it decides no bit of the result.
-void rebalance(State& state, Exchange& exchange, std::vector<double> work);
+void rebalance(State& state, ThreadTeam& team, Exchange& exchange, std::vector<double> work);
 
 // What is expected where nothing has been measured: the links of each of this process's surfaces.
 std::vector<double> links_of_surfaces(const State& state, const Exchange& exchange);

@@ -313,7 +313,7 @@ void RefiningRound::finish() {
   state_.links.replace(std::move(sealed), &tools_.team);
   shrink_to_fit(state_);
   memory_.settle();
-  tools_.exchange.ask_for_sources(state_);
+  tools_.exchange.ask_for_sources(state_, tools_.team);
 }
 
 }  // namespace

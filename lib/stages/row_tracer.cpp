@@ -188,7 +188,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     put(state, tools, rows, cells, first);
     memory.settle();
   }
-  if (going_on) tools.exchange.ask_for_sources(state);
+  if (going_on) tools.exchange.ask_for_sources(state, tools.team);
   return going_on;
 }
 

@@ -51,9 +51,9 @@ void stay_near_the_mean(const State& state, Brightness& light) {
 }
 
 Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
-  reset_to_emission(state);
+  reset_to_emission(state, tools.team);
   // Emitters, whose light the leaves have links to before there are rows.
-  tools.exchange.ask_for_sources(state);
+  tools.exchange.ask_for_sources(state, tools.team);
   const std::vector<uint32_t> blocks = own_blocks(state, tools.exchange);
   for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, blocks);
   if (state.forest.clusters.empty()) tools.exchange.share_roots(state);
@@ -216,7 +216,7 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
   if (!trace_cells(state, last, settings, grid, spots, state.cells, rays, memory))
     return Outcome::stopped;
   mesh.keep_what_is_named();
-  reset_to_emission(state);
+  reset_to_emission(state, tools.team);
   shrink_to_fit(state);
   memory.settle();
   return Outcome::done;

@@ -58,12 +58,11 @@ std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exch
     double row[most_bands], from_above[most_bands];
     const NodeId cluster = state.forest.nodes[root].parent;
     for (size_t b = 0; b < bands; ++b)
-      from_above[b] =
-          cluster < 0 ? 0 : state.irradiance[static_cast<size_t>(cluster) * bands + b];
-    push_pull({state.forest.nodes.data(), root, state.bands, &scene.emission[patch],
-               &scene.reflectance[patch], from_above, state.irradiance.data(),
-               state.radiosity.data()},
-              row);
+      from_above[b] = cluster < 0 ? 0 : state.irradiance[static_cast<size_t>(cluster) * bands + b];
+    push_pull(
+        {state.forest.nodes.data(), root, state.bands, &scene.emission[patch],
+         &scene.reflectance[patch], from_above, state.irradiance.data(), state.radiosity.data()},
+        row);
     for (size_t b = 0; b < bands; ++b) sums[b].add(row[b] * surface.area);
   };
   const size_t roots = static_cast<size_t>(state.forest.surface_count());
@@ -140,7 +139,7 @@ std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange,
                           const std::vector<uint32_t>& blocks) {
   gather(state, team, blocks);
   std::vector<double> transported = push_pull(state, team, exchange);
-  exchange.update(state);
+  exchange.update(state, team);
   return transported;
 }
 
@@ -163,18 +162,18 @@ void pull_exposure(Forest& forest) {
   }
 }
 
-void reset_to_emission(State& state) {
+void reset_to_emission(State& state, ThreadTeam& team) {
   const Scene& scene = *state.forest.scene;
-  const size_t count = state.forest.nodes.size();
+  const size_t bands = static_cast<size_t>(state.bands);
   state.resize_light();
-  std::fill(state.irradiance.begin(), state.irradiance.end(), 0.0f);
-  for (size_t k = 0; k < count; ++k) {
-    if (Forest::is_cluster(state.forest.nodes[k])) continue;
+  for_each_thing(team, state.forest.nodes.size(), [&](size_t k) {
+    std::fill_n(&state.irradiance[k * bands], bands, 0.0f);
+    if (Forest::is_cluster(state.forest.nodes[k])) return;
     const int32_t patch = state.forest.surfaces[state.forest.nodes[k].surface].patch;
-    for (int b = 0; b < state.bands; ++b)
-      state.radiosity[k * state.bands + b] =
-          static_cast<float>(scene.emission[static_cast<size_t>(patch) * state.bands + b]);
-  }
+    for (size_t b = 0; b < bands; ++b)
+      state.radiosity[k * bands + b] =
+          static_cast<float>(scene.emission[static_cast<size_t>(patch) * bands + b]);
+  });
   pull_to_clusters(state);
 }
 
@@ -190,8 +189,9 @@ Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchan
   });
   for (double& unit : brightness.unit) unit = unit > 0 ? 1 / std::sqrt(unit / area) : 0;
   brightness.of_node.resize(state.forest.nodes.size());
-  for (size_t k = 0; k < brightness.of_node.size(); ++k)
+  for_each_thing(team, brightness.of_node.size(), [&](size_t k) {
     brightness.of_node[k] = brightness_of(&state.radiosity[k * state.bands], brightness.unit);
+  });
   brightness.spread.resize(state.forest.nodes.size());
   for_each_root(state, team, [&](NodeId root) {
     spread_below(state, root, brightness.unit, brightness.spread);

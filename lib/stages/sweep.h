@@ -26,7 +26,7 @@ std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange
 void pull_exposure(Forest& forest);
 
 // B = E, H = 0 everywhere: where every solve starts.
-void reset_to_emission(State& state);
+void reset_to_emission(State& state, ThreadTeam& team);
 
 // Units, brightness and its spread, from the present radiosity.
 Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange);

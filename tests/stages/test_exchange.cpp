@@ -30,6 +30,7 @@ void elements_are_asked_for_once() {
   for (auto& of_rank : counts) of_rank.resize(ranks);
   on_ranks(ranks, [&](Comm& comm) {
     State state(scene);
+    ThreadTeam team(2);
     const int rank = comm.rank();
     const auto surfaces = static_cast<NodeId>(state.forest.surface_count());
     std::vector<int32_t> owner;
@@ -43,7 +44,7 @@ void elements_are_asked_for_once() {
     Exchange exchange(comm, owner);
     const NodeId next = (rank + 1) % ranks, last = (rank + 2) % ranks;
     const auto ask = [&](int turn) {
-      exchange.ask_for_sources(state);
+      exchange.ask_for_sources(state, team);
       counts[turn][static_cast<size_t>(rank)] = exchange.counts();
     };
     // A root, an own element, two of the next rank and one of that after it.
@@ -57,7 +58,7 @@ void elements_are_asked_for_once() {
         if (exchange.mine(state.forest, k))
           state.radiosity[static_cast<size_t>(k * state.bands)] =
               static_cast<float>(k + 1000 * sweep);
-      exchange.update(state);
+      exchange.update(state, team);
     }
     counts[3][static_cast<size_t>(rank)] = exchange.counts();
     const auto at = [&](NodeId id) {

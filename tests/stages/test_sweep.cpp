@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "stages/gather.h"
-#include "stages/sweep_kernels.h"
 #include "stages/sweep.h"
+#include "stages/sweep_kernels.h"
 #include "support/workbench.h"
 #include "visibility/brute_force.h"
 
@@ -133,7 +133,7 @@ void sealed_surfaces_only_emit() {
 void reset_leaves_emission_alone() {
   Tree tree;
   push_pull(tree.state, tree.team, tree.exchange);
-  reset_to_emission(tree.state);
+  reset_to_emission(tree.state, tree.team);
   const size_t count = tree.state.forest.nodes.size() * 2;
   CHECK_EQUAL(tree.state.radiosity.size(), count + State::floats_beyond);
   CHECK_EQUAL(tree.state.irradiance.size(), count);

@@ -66,7 +66,7 @@ struct Workbench {
   // Arrays as long as the forest, B = E.
   void prepare() {
     state.links.resize(state.forest.nodes.size());
-    hrad::reset_to_emission(state);
+    hrad::reset_to_emission(state, team);
   }
 
   // The Linking Stage, with the exposed shares of the roots.
