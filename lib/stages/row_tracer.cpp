@@ -13,9 +13,9 @@
 namespace hrad {
 namespace {
 
-constexpr int64_t rows_of_a_task = 8;
+constexpr int64_t rays_of_a_task = 256;
 // Put in place together. Few, so that little stands beside the table.
-constexpr int64_t rows_of_a_batch = 8192;
+constexpr size_t rows_of_a_batch = 8192;
 
 class RowTracer {
  public:
@@ -113,16 +113,47 @@ class RowTracer {
   size_t together_ = 0;
 };
 
-// rows: of the cells from `first` on.
-void put(State& state, const StageTools& tools, const std::vector<Span<const Link>>& rows,
-         const std::vector<NodeId>& cells, int64_t first) {
-  std::vector<LinkTable::NewRun> runs;
-  for (Span<const Link> row : rows) {
-    const NodeId cell = cells[static_cast<size_t>(first++)];
-    if (tools.exchange.mine(state.forest.nodes[cell].surface)) runs.push_back({cell, row});
+// The cells that this process gives rows, in tasks of about as many rays, and these in batches.
+class OwnRows {
+ public:
+  OwnRows(const State& state, const Exchange& exchange, const std::vector<NodeId>& cells,
+          const std::vector<int>& rays_of_cell) {
+    int64_t rays = rays_of_a_task;
+    size_t in_batch = rows_of_a_batch;
+    for (size_t k = 0; k < cells.size(); ++k) {
+      const Node& node = state.forest.nodes[cells[k]];
+      if (!exchange.mine(node.surface) || !(node.exposed > 0)) continue;
+      if (rays >= rays_of_a_task) {
+        if (in_batch >= rows_of_a_batch) {
+          batches_.push_back(first_.size());
+          in_batch = 0;
+        }
+        first_.push_back(cells_.size());
+        rays = 0;
+      }
+      cells_.push_back(k);
+      rays += rays_of_cell[k];
+      ++in_batch;
+    }
+    batches_.push_back(first_.size());
+    first_.push_back(cells_.size());
   }
-  state.links.replace(std::move(runs), &tools.team);
-}
+  size_t cell(size_t row) const { return cells_[row]; }  // its number
+  // Rows of a task, and tasks of a batch: from here to where the next one begins.
+  size_t first_row(size_t task) const { return first_[task]; }
+  size_t first_task(size_t batch) const { return batches_[batch]; }
+  size_t batches() const { return batches_.size() - 1; }
+  size_t tasks() const { return first_.size() - 1; }
+
+ private:
+  std::vector<size_t> cells_, first_, batches_;
+};
+
+struct Row {
+  int64_t rays = 0;
+  bool is_new = false;
+  Span<const Link> links;  // in those of its task
+};
 
 }  // namespace
 
@@ -130,66 +161,67 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
                 const LightGrid& grid, const BrightSpots& spots, const std::vector<NodeId>& cells,
                 const std::vector<int>& rays_of_cell, StageMemory& memory) {
   const Forest& forest = state.forest;
-  const int64_t count = static_cast<int64_t>(cells.size());
   const auto is_element = [&](NodeId source) {
     return source >= 0 && static_cast<size_t>(source) < forest.nodes.size() &&
            !Forest::is_cluster(forest.nodes[source]);
   };
+  const OwnRows own(state, tools.exchange, cells, rays_of_cell);
   state.journal.next_pass();
   bool going_on = true;
-  for (int64_t first = 0; first < count && going_on; first += rows_of_a_batch) {
-    const int64_t end = std::min(count, first + rows_of_a_batch);
-    const int64_t tasks = (end - first + rows_of_a_task - 1) / rows_of_a_task;
-    std::vector<int64_t> rays(static_cast<size_t>(end - first), 0);
-    std::vector<uint8_t> is_new(static_cast<size_t>(end - first), 0);
-    std::vector<std::vector<Link>> links_of_task(static_cast<size_t>(tasks));
-    std::vector<Span<const Link>> rows(static_cast<size_t>(end - first));  // in these
-    const auto first_of = [&](int64_t task) {
-      return std::min(end, first + task * rows_of_a_task);
+  for (size_t batch = 0; batch < own.batches() && going_on; ++batch) {
+    const size_t first = own.first_task(batch), tasks = own.first_task(batch + 1) - first;
+    const size_t first_row = own.first_row(first);
+    std::vector<Row> rows(own.first_row(first + tasks) - first_row);
+    std::vector<std::vector<Link>> links_of_task(tasks);
+    const auto for_each_row = [&](int64_t task, const auto& body) {
+      const size_t number = first + static_cast<size_t>(task);
+      for (size_t k = own.first_row(number); k < own.first_row(number + 1); ++k)
+        body(rows[k - first_row], own.cell(k));
     };
     going_on = state.journal.for_each(
-        tools.team, tasks,
+        tools.team, static_cast<int64_t>(tasks),
         [&](int64_t task, int) {
           RowTracer tracer(state, tools, settings, grid, spots);
           std::vector<Link>& links = links_of_task[static_cast<size_t>(task)];
-          size_t count_of[rows_of_a_task] = {};
-          const int64_t from = first_of(task), to = first_of(task + 1);
-          for (int64_t k = from; k < to; ++k) {
-            const Node& node = forest.nodes[cells[k]];
-            if (!tools.exchange.mine(node.surface) || !(node.exposed > 0)) continue;
-            const size_t before = links.size();
-            is_new[k - first] = !state.journal.known_run(name_of_element(forest, cells[k]),
-                                                         is_element, links, rays[k - first]);
-            if (is_new[k - first])
-              rays[k - first] = tracer.trace(cells[k], rays_of_cell[k],
-                                             spots.links_to(static_cast<size_t>(k)), links);
-            count_of[k - from] = links.size() - before;
-          }
+          std::vector<size_t> ends;
+          for_each_row(task, [&](Row& row, size_t cell) {
+            row.is_new = !state.journal.known_run(name_of_element(forest, cells[cell]), is_element,
+                                                  links, row.rays);
+            if (row.is_new)
+              row.rays = tracer.trace(cells[cell], rays_of_cell[cell], spots.links_to(cell), links);
+            ends.push_back(links.size());
+          });
           links.shrink_to_fit();
-          const Link* next = links.data();
-          for (int64_t k = from; k < to; next += count_of[k++ - from])
-            rows[k - first] = {next, count_of[k - from]};
+          size_t begin = 0;
+          auto end = ends.begin();
+          for_each_row(task, [&](Row& row, size_t) {
+            row.links = {links.data() + begin, *end - begin};
+            begin = *end++;
+          });
           const int64_t bytes = static_cast<int64_t>(links.size() * sizeof(Link));
           memory.take(2 * bytes, "rows of rays");  // in two places for a while
         },
         [&](int64_t done) {
-          return tools.progress(
-              (static_cast<double>(first) + static_cast<double>(done * rows_of_a_task)) /
-              static_cast<double>(count + rows_of_a_task));
+          return tools.progress((static_cast<double>(first) + static_cast<double>(done)) /
+                                static_cast<double>(own.tasks() + 1));
         },
         [&](LinkStep& step, int64_t task) {
-          for (int64_t k = first_of(task); k < first_of(task + 1); ++k)
-            if (is_new[k - first])
-              step.add_run(name_of_element(forest, cells[k]), rows[k - first], rays[k - first]);
+          for_each_row(task, [&](const Row& row, size_t cell) {
+            if (row.is_new) step.add_run(name_of_element(forest, cells[cell]), row.links, row.rays);
+          });
         });
-    going_on = tools.exchange.all_go_on(going_on);
     if (!going_on) break;
-    for (int64_t r : rays) state.rays += r;
-    put(state, tools, rows, cells, first);
+    std::vector<LinkTable::NewRun> runs;
+    for (size_t k = 0; k < rows.size(); ++k) {
+      state.rays += rows[k].rays;
+      runs.push_back({cells[own.cell(first_row + k)], rows[k].links});
+    }
+    state.links.replace(std::move(runs), &tools.team);
     memory.settle();
   }
-  if (going_on) tools.exchange.ask_for_sources(state, tools.team);
-  return going_on;
+  if (!tools.exchange.all_go_on(going_on)) return false;
+  tools.exchange.ask_for_sources(state, tools.team);
+  return true;
 }
 
 }  // namespace hrad
