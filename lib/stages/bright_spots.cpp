@@ -45,19 +45,33 @@ BrightSpots::BrightSpots(const State& state, const StageTools& tools, const RowS
         std::max(brightness.of_node[known], brightness.of_node[forest.nodes[leaves[k]].surface]);
   });
   tools.exchange.share(light, [&](size_t k) { return forest.nodes[leaves[k]].surface; });
+  struct Sums {
+    double rest = 0, area = 0;
+  };
+  std::vector<Sums> sums(pieces_of(leaves.size()));
+  for_each_piece(tools.team, leaves.size(), [&](size_t piece, size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      const double exposed = exposed_area(leaves[k]);
+      sums[piece].area += exposed;
+      if (light[k] <= bright_spot) sums[piece].rest += exposed * static_cast<double>(light[k]);
+    }
+  });
   double rest = 0, area = 0;
-  for (size_t k = 0; k < leaves.size(); ++k) {
-    area += exposed_area(leaves[k]);
-    if (light[k] <= bright_spot) rest += exposed_area(leaves[k]) * static_cast<double>(light[k]);
+  for (const Sums& some : sums) {
+    rest += some.rest;
+    area += some.area;
   }
   const double least =
       area > 0 ? std::min(bright_spot, std::max(least_bright_spot, times_the_rest * rest / area))
                : bright_spot;
   const double power =
       settings.power_of_spot_rays() * settings.cell_area * std::sqrt(least / bright_spot);
-  for (size_t k = 0; k < leaves.size(); ++k) {
-    if (!(static_cast<double>(light[k]) > least)) continue;
-    rays_.resize(forest.nodes.size(), 0);
+  const std::vector<size_t> bright =
+      gathered<size_t>(tools.team, leaves.size(), [&](size_t k, std::vector<size_t>& some) {
+        if (static_cast<double>(light[k]) > least) some.push_back(k);
+      });
+  if (!bright.empty()) rays_.resize(forest.nodes.size(), 0);
+  for (size_t k : bright) {
     rays_[leaves[k]] = static_cast<int32_t>(std::ceil(std::min(
         most_rays_of_a_spot, static_cast<double>(light[k]) * exposed_area(leaves[k]) / power)));
     spots_.push_back(leaves[k]);

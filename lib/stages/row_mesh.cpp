@@ -175,22 +175,18 @@ bool RowMesh::refine(std::vector<NodeId> open) {
     of_level_before = of_level;
     if (!sample_corners()) return false;
     const std::vector<uint8_t> fate = fate_of(open, asked);
-    std::vector<NodeId> parents;
-    std::vector<uint8_t> fate_of_parent;
-    for (size_t k = 0; k < open.size(); ++k) {
-      if (fate[k] == stays) continue;
-      parents.push_back(open[k]);
-      fate_of_parent.push_back(fate[k]);
-    }
+    const std::vector<NodeId> parents =
+        gathered<NodeId>(tools_.team, open.size(), [&](size_t k, std::vector<NodeId>& some) {
+          if (fate[k] != stays) some.push_back(open[k]);
+        });
     const NodeId first = add_children(parents);
     if (!measure_exposure(first)) return false;
-    open =
-        gathered<NodeId>(tools_.team, parents.size(), [&](size_t k, std::vector<NodeId>& children) {
-          if (fate_of_parent[k] != goes_on) return;
-          const NodeId child = first + 4 * static_cast<NodeId>(k);
-          for (NodeId id = child; id < child + 4; ++id)
-            if (forest_.nodes[id].exposed > 0) children.push_back(id);
-        });
+    open = gathered<NodeId>(tools_.team, open.size(), [&](size_t k, std::vector<NodeId>& children) {
+      if (fate[k] != goes_on) return;
+      const NodeId child = forest_.nodes[open[k]].first_child;
+      for (NodeId id = child; id < child + 4; ++id)
+        if (forest_.nodes[id].exposed > 0) children.push_back(id);
+    });
   }
   return true;
 }
