@@ -16,7 +16,7 @@ namespace hrad {
 // Per patch, about the rays that linking will trace from it: geometry and accuracy alone, whatever
 // light will make of it. The sides of a patch count both.
 std::vector<double> predicted_work(const Params& params, const State& state,
-                                   const Inspection& inspection);
+                                   const Inspection& inspection, const Exposure& exposure);
 
 struct PartitionPlan {
   std::vector<double> work;     // per patch, predicted

@@ -114,8 +114,8 @@ void Solver::deal_out(Solution& solution) const {
   const std::vector<Surface>& surfaces = solution.state.forest.surfaces;
   std::vector<int32_t> of_surface(surfaces.size(), 0);
   if (!comm_->alone()) {
-    const std::vector<PartitionItem> items =
-        partition_items(scene_, predicted_work(params_, solution.state, solution.inspection));
+    const std::vector<PartitionItem> items = partition_items(
+        scene_, predicted_work(params_, solution.state, solution.inspection, *solution.exposure));
     const std::vector<int32_t> owners =
         owners_of(scene_, items, partition_method(params_.partition).divide(items, comm_->size()));
     for (size_t k = 0; k < surfaces.size(); ++k)
@@ -134,9 +134,10 @@ int32_t Solver::patch_owner(int64_t patch) const {
 PartitionPlan Solver::plan_partition(const std::string& method, int32_t ranks) {
   static_cast<void>(partition_method(method));  // what can't be done closes no scene
   partition();
-  return hrad::plan_partition(solution_->state, *solution_->engine,
-                              predicted_work(params_, solution_->state, solution_->inspection),
-                              method, ranks);
+  return hrad::plan_partition(
+      solution_->state, *solution_->engine,
+      predicted_work(params_, solution_->state, solution_->inspection, *solution_->exposure),
+      method, ranks);
 }
 
 void Solver::export_partition(const std::string& method, int32_t ranks, const std::string& path) {
