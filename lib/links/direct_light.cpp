@@ -22,6 +22,9 @@ constexpr double near_radii = 2;
 constexpr double quadratic_radii = 8, point_radii = 30;
 // Variance of what one ray says: at the most, and where some thirty pilot rays met nothing.
 constexpr double variance_at_most = 0.25, variance_if_hidden = 1.0 / 32;
+// Where those met nothing and less than a ray would do, it is traced by chance, no smaller than
+// this: nearly all of them meet nothing either.
+constexpr double least_chance = 0.125;
 // Sixteen rays that are spread evenly do for so many times as many by chance, where few points lie
 // in a penumbra.
 constexpr double gain_of_evenness = 16;
@@ -60,6 +63,7 @@ struct DirectLight::Batch {
   struct Part {
     const Emitter* emitter;
     int first, rays;
+    double chance;  // by which these rays are traced at all
     double factor;  // of a group: without occlusion
   };
 
@@ -113,11 +117,13 @@ int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
   int64_t rays = 0;
   for (const LightGrid::Candidate& candidate : grid_.at(point)) {
     const Emitter& e = emitters_.all()[candidate.emitter];
-    const int wanted = rays_wanted(e, candidate.hidden, point.place, point.normal);
-    if (wanted == 0) continue;
+    const Wanted wanted = wanted_of(e, candidate.hidden, point.place, point.normal);
+    if (wanted.rays == 0) continue;
     const uint64_t own_key = mix(key, static_cast<uint64_t>(e.surfaces.front()));
     if (length(e.center - point.place) > near_radii * e.radius) {
-      if (batch.used + wanted > 16) finish(point, batch, links);
+      if (wanted.chance < 1 && unit_interval(mix(own_key, 0x6368616e6365u)) >= wanted.chance)
+        continue;
+      if (batch.used + wanted.rays > 16) finish(point, batch, links);
       if (e.members.empty())
         add(e, wanted, own_key, point, batch);
       else
@@ -131,11 +137,13 @@ int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
   return rays + batch.rays;
 }
 
-int64_t DirectLight::rays_at(const OrientedPoint& point) const {
-  int64_t rays = 0;
-  for (const LightGrid::Candidate& candidate : grid_.at(point))
-    rays += rays_wanted(emitters_.all()[candidate.emitter], candidate.hidden, point.place,
-                        point.normal);
+double DirectLight::rays_at(const OrientedPoint& point) const {
+  double rays = 0;
+  for (const LightGrid::Candidate& candidate : grid_.at(point)) {
+    const Wanted wanted =
+        wanted_of(emitters_.all()[candidate.emitter], candidate.hidden, point.place, point.normal);
+    rays += wanted.rays * wanted.chance;
+  }
   return rays;
 }
 
@@ -144,20 +152,23 @@ double DirectLight::rays_for(double light, double variance) const {
   return light * light * variance / (noise_ * noise_);
 }
 
-// 1, 4 or 16, none where the emitter isn't worth sampling.
-int DirectLight::rays_wanted(const Emitter& e, bool hidden, Vec3 x, Vec3 normal) const {
+DirectLight::Wanted DirectLight::wanted_of(const Emitter& e, bool hidden, Vec3 x,
+                                           Vec3 normal) const {
   const double factor = Emitters::rough_factor(e, x, normal);
-  if (!emitters_.is_sampled(e, factor)) return 0;
+  if (!emitters_.is_sampled(e, factor)) return {0, 1};
   // Partly below the horizon, few points may miss all of it. Those of a group never do.
-  if (e.members.empty() && dot(e.center - x, normal) < e.radius) return 16;
-  const double wanted =
+  if (e.members.empty() && dot(e.center - x, normal) < e.radius) return {16, 1};
+  const double rays =
       rays_for(e.brightness * factor, hidden ? variance_if_hidden : variance_at_most);
-  return wanted > 4 ? 16 : wanted > 1 ? 4 : 1;
+  // No weight becomes larger than 1 by it.
+  const double chance = hidden ? std::min(1.0, std::max({least_chance, rays, 2 * factor})) : 1;
+  return {rays > 4 ? 16 : rays > 1 ? 4 : 1, chance};
 }
 
-void DirectLight::add(const Emitter& e, int rays, uint64_t key, const OrientedPoint& point,
-                      Batch& batch) const {
-  batch.parts[batch.part_count++] = {&e, batch.used, rays, 0};
+void DirectLight::add(const Emitter& e, const Wanted& wanted, uint64_t key,
+                      const OrientedPoint& point, Batch& batch) const {
+  const int rays = wanted.rays;
+  batch.parts[batch.part_count++] = {&e, batch.used, rays, wanted.chance, 0};
   // All sixteen points, or some of them that are spread evenly, other ones for every receiver.
   const size_t turn = rays == 16 ? 0 : key % 16;
   for (int k = 0; k < rays; ++k)
@@ -166,8 +177,9 @@ void DirectLight::add(const Emitter& e, int rays, uint64_t key, const OrientedPo
 
 // Rays in proportion to what the members would bring without occlusion, so that the visible share
 // needs no weights: some may be much nearer than others.
-void DirectLight::add_group(const Emitter& group, int rays, uint64_t key,
+void DirectLight::add_group(const Emitter& group, const Wanted& wanted, uint64_t key,
                             const OrientedPoint& point, Batch& batch) const {
+  const int rays = wanted.rays;
   double all = 0;
   batch.up_to.clear();
   for (int32_t member : group.members) {
@@ -185,7 +197,7 @@ void DirectLight::add_group(const Emitter& group, int rays, uint64_t key,
          ++turn)
       batch.aim(engine_, point, {e.point(turn % 16), e.normal}, 1);
   }
-  batch.parts[batch.part_count++] = {&group, first, batch.used - first, all};
+  batch.parts[batch.part_count++] = {&group, first, batch.used - first, wanted.chance, all};
 }
 
 void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<Link>& links) const {
@@ -200,7 +212,7 @@ void DirectLight::finish(const OrientedPoint& point, Batch& batch, std::vector<L
     if (sum.all > 0 && !(sum.visible > 0)) continue;
     if (part.rays == 16 && e.members.empty() && sum.visible < sum.all)
       batch.rays += look_closer(e, point, sum);
-    const double share = sum.all > 0 ? sum.visible / sum.all : 1;
+    const double share = (sum.all > 0 ? sum.visible / sum.all : 1) / part.chance;
     const Vec3 way = e.center - point.place;
     const double radii = length(way) / e.radius;
     const bool above_horizon = dot(way, point.normal) > e.radius;

@@ -27,7 +27,7 @@ class DirectLight {
   int64_t sample(const OrientedPoint& point, uint64_t key, std::vector<Link>& links) const;
 
   // About the rays that sample() would take there.
-  int64_t rays_at(const OrientedPoint& point) const;
+  double rays_at(const OrientedPoint& point) const;
 
  private:
   struct Batch;
@@ -36,11 +36,17 @@ class DirectLight {
   };
   double rays_for(double light, double variance) const;
   size_t rays_of_penumbra(double light) const;
-  int rays_wanted(const Emitter& emitter, bool hidden, Vec3 x, Vec3 normal) const;
-  void add(const Emitter& emitter, int rays, uint64_t key, const OrientedPoint& point,
+  // 1, 4 or 16, none where the emitter isn't worth sampling; traced by this chance, and then for
+  // all those that are not.
+  struct Wanted {
+    int rays;
+    double chance;
+  };
+  Wanted wanted_of(const Emitter& emitter, bool hidden, Vec3 x, Vec3 normal) const;
+  void add(const Emitter& emitter, const Wanted& wanted, uint64_t key, const OrientedPoint& point,
            Batch& batch) const;
-  void add_group(const Emitter& group, int rays, uint64_t key, const OrientedPoint& point,
-                 Batch& batch) const;
+  void add_group(const Emitter& group, const Wanted& wanted, uint64_t key,
+                 const OrientedPoint& point, Batch& batch) const;
   void finish(const OrientedPoint& point, Batch& batch, std::vector<Link>& links) const;
   int64_t look_closer(const Emitter& emitter, const OrientedPoint& point, Weights& sum) const;
   int64_t sample_near(NodeId root, const OrientedPoint& point, uint64_t key,

@@ -86,7 +86,7 @@ void RowMesh::guess_share(const std::vector<NodeId>& cells,
   const size_t step = cells.size() / most_looked_at + 1;
   std::vector<double> shadow_rays((cells.size() + step - 1) / step);
   for_each_thing(tools_.team, shadow_rays.size(), [&](size_t k) {
-    shadow_rays[k] = static_cast<double>(light_.rays_at(points[3 * step * k]));
+    shadow_rays[k] = light_.rays_at(points[3 * step * k]);
   });
   double shadow = 0, rows = 0;
   for (size_t k = 0; k < shadow_rays.size(); ++k) {
