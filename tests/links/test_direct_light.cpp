@@ -210,6 +210,31 @@ void what_is_hidden_and_weak_has_no_links() {
   CHECK(strong.grid.by_links(0, under, strong.grid.at(under)));
 }
 
+// From the edge of a lid half of the lamp is seen, though no pilot ray met it from farther below:
+// one ray for every eighth key, and the mean of all is right.
+void what_is_hidden_is_looked_at_by_chance() {
+  Scene scene = floor_and_lamp(0.3);
+  add_quad(scene, {-5, -5, 0.5}, {5, 0, 0}, {0, 10, 0});
+  Lit lit(scene, 1e6);
+  const Vec3 x{-0.001, 0.3, 0};
+  open(lit.grid, {{{-0.6, 0.3, 0}, up}}, lit.bench);
+  CHECK(lit.grid.at({x, up}).front().hidden);
+  const double wanted = exact(lit.bench.scene, x, up) / 2;
+  double sum = 0, squares = 0, traced = 0;
+  constexpr int keys = 20000;
+  for (int k = 0; k < keys; ++k) {
+    const double value = lit.at(x, up, static_cast<uint64_t>(k));
+    CHECK(lit.rays <= 1);
+    traced += static_cast<double>(lit.rays);
+    sum += value;
+    squares += value * value;
+  }
+  const double mean = sum / keys, error = std::sqrt((squares / keys - mean * mean) / keys);
+  CHECK_NEAR(mean, wanted, 4 * error + 0.02 * wanted);
+  CHECK(error < 0.1 * wanted);
+  CHECK_NEAR(traced / keys, 0.125, 0.01);
+}
+
 }  // namespace
 
 int main() {
@@ -226,6 +251,7 @@ int main() {
       HRAD_TEST(the_grid_misses_none),
       HRAD_TEST(pilot_rays_tell_what_is_hidden),
       HRAD_TEST(what_is_hidden_and_weak_has_no_links),
+      HRAD_TEST(what_is_hidden_is_looked_at_by_chance),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
