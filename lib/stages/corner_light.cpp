@@ -71,13 +71,13 @@ CornerSampler::Wanted CornerSampler::wanted_of(uint64_t key) const {
           name_of_corner(surface, point), moved_inwards(surface, point_of(surface, point))};
 }
 
-CornerSampler::Wanted CornerSampler::own_of(const OwnPoint& point) const {
+CornerSampler::Wanted CornerSampler::own_of(const PointOfElement& point) const {
   const Node& node = state_.forest.nodes[point.element];
   return {node.surface, mix(key_of(state_.forest, node), seed_, static_cast<uint64_t>(point.which)),
           name_of_element(state_.forest, point.element, point.which), point.place};
 }
 
-void CornerSampler::add(const std::vector<OwnPoint>& points) {
+void CornerSampler::add(const std::vector<PointOfElement>& points) {
   const size_t before = wanted_.size();
   wanted_.resize(before + points.size());
   for_each_thing(tools_.team, points.size(),

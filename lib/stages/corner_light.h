@@ -20,7 +20,7 @@ struct ElementPoints {
 };
 
 // A point that is an element's own; `which` tells apart those of one element.
-struct OwnPoint {
+struct PointOfElement {
   NodeId element;
   int which;
   Vec3 place;
@@ -53,7 +53,7 @@ class CornerSampler {
 
   // Asks for the light at points that are elements' own, whose numbers follow each other from
   // asked() on.
-  void add(const std::vector<OwnPoint>& points);
+  void add(const std::vector<PointOfElement>& points);
   // The links of the points from number `first` on are not needed any more.
   void forget_links(size_t first);
   // Three points that have the mean of every quadratic field over the exposed part of an element
@@ -73,7 +73,7 @@ class CornerSampler {
     Vec3 place;
   };
   Wanted wanted_of(uint64_t key) const;
-  Wanted own_of(const OwnPoint& point) const;
+  Wanted own_of(const PointOfElement& point) const;
   OrientedPoint point_of(const Wanted& wanted) const;
   bool sample_some(size_t first, size_t end, double work);
   void count_links(size_t more);

@@ -90,7 +90,7 @@ bool LeafLight::name() {
         if (forest_.nodes[leaves[k]].light_points == at_corners) some.push_back(k);
       });
   std::vector<int32_t> centroids(leaves.size(), -1);
-  std::vector<OwnPoint> middles(wanted.size());
+  std::vector<PointOfElement> middles(wanted.size());
   const auto first_middle = static_cast<size_t>(corners_.asked());
   for_each_thing(tools_.team, wanted.size(), [&](size_t k) {
     const NodeId leaf = leaves[wanted[k]];
@@ -157,7 +157,7 @@ void LeafLight::take_own_points(const std::vector<NodeId>& leaves) {
       found[k].within[static_cast<size_t>(c)] = {static_cast<float>(x), static_cast<float>(y)};
     }
   });
-  std::vector<OwnPoint> points;
+  std::vector<PointOfElement> points;
   points.reserve(3 * leaves.size());
   for (size_t k = 0; k < leaves.size(); ++k) {
     if (!found[k].any) continue;
