@@ -33,7 +33,7 @@ std::vector<uint32_t> CornerNumbers::add_in_turn(const std::vector<uint64_t>& ke
 
 std::vector<uint32_t> CornerNumbers::add(const std::vector<uint64_t>& keys, int32_t next,
                                          ThreadTeam& team) {
-  if (keys.size() <= keys_of_a_piece) return add_in_turn(keys, next);
+  if (team.size() == 1 || keys.size() <= keys_of_a_piece) return add_in_turn(keys, next);
   // Of each table its keys, in order: piece by piece, first counted, then put side by side.
   const size_t pieces = pieces_of(keys.size(), keys_of_a_piece);
   std::vector<uint32_t> next_of(pieces * table_count, 0), sorted(keys.size());
