@@ -85,25 +85,32 @@ bool LeafLight::name() {
                                      if (!take_corners(leaves[k]))
                                        partly_sealed.push_back(leaves[k]);
                                    }));
-  const std::vector<size_t> wanted =
-      gathered<size_t>(tools_.team, leaves.size(), [&](size_t k, std::vector<size_t>& some) {
-        if (forest_.nodes[leaves[k]].light_points == at_corners) some.push_back(k);
-      });
-  std::vector<int32_t> centroids(leaves.size(), -1);
-  std::vector<PointOfElement> middles(wanted.size());
   const auto first_middle = static_cast<size_t>(corners_.asked());
-  for_each_thing(tools_.team, wanted.size(), [&](size_t k) {
-    const NodeId leaf = leaves[wanted[k]];
-    centroids[wanted[k]] = static_cast<int32_t>(first_middle + k);
-    middles[k] = {leaf, number_of_centroid, middle_of(forest_, leaf).place};
-  });
-  corners_.add(middles);
+  const std::vector<int32_t> centroids = ask_for_middles(leaves);
   const auto its_middle = [&](size_t k) { return keyed_middle_of(forest_, leaves[k]); };
   if (!open_cubes(grid_, leaves.size(), its_middle, state_, tools_)) return false;
   if (!corners_.sample(work_of_a_middle)) return false;
   add_up_means(leaves, centroids);
   corners_.forget_links(first_middle);
   return true;
+}
+
+// Numbers of the middles of the leaves that are to know theirs; -1: of others.
+std::vector<int32_t> LeafLight::ask_for_middles(const std::vector<NodeId>& leaves) {
+  const std::vector<size_t> wanted =
+      gathered<size_t>(tools_.team, leaves.size(), [&](size_t k, std::vector<size_t>& some) {
+        if (forest_.nodes[leaves[k]].light_points == at_corners) some.push_back(k);
+      });
+  const auto first = static_cast<int32_t>(corners_.asked());
+  std::vector<int32_t> centroids(leaves.size(), -1);
+  std::vector<PointOfElement> middles(wanted.size());
+  for_each_thing(tools_.team, wanted.size(), [&](size_t k) {
+    const NodeId leaf = leaves[wanted[k]];
+    centroids[wanted[k]] = first + static_cast<int32_t>(k);
+    middles[k] = {leaf, number_of_centroid, middle_of(forest_, leaf).place};
+  });
+  corners_.add(middles);
+  return centroids;
 }
 
 void LeafLight::forget_divided() {

@@ -38,6 +38,7 @@ class LeafLight {
   void forget_divided();
   bool take_corners(NodeId leaf);
   void take_own_points(const std::vector<NodeId>& leaves);
+  std::vector<int32_t> ask_for_middles(const std::vector<NodeId>& leaves);
   Shares shares_of_mean(NodeId leaf, int32_t centroid) const;
   std::vector<OrientedPoint> points_over(NodeId leaf, double large) const;
   void add_up(std::vector<Link>& all, const OrientedPoint& middle, std::vector<Link>& run) const;
