@@ -120,7 +120,7 @@ int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
     const Wanted wanted = wanted_of(e, candidate.hidden, point.place, point.normal);
     if (wanted.rays == 0) continue;
     const uint64_t own_key = mix(key, static_cast<uint64_t>(e.surfaces.front()));
-    if (length(e.center - point.place) > near_radii * e.radius) {
+    if (!is_near(e, point)) {
       if (wanted.chance < 1 && unit_interval(mix(own_key, 0x6368616e6365u)) >= wanted.chance)
         continue;
       if (batch.used + wanted.rays > 16) finish(point, batch, links);
@@ -135,6 +135,30 @@ int64_t DirectLight::sample(const OrientedPoint& point, uint64_t key,
   }
   finish(point, batch, links);
   return rays + batch.rays;
+}
+
+bool DirectLight::is_near(const Emitter& e, const OrientedPoint& point) {
+  return !(length(e.center - point.place) > near_radii * e.radius);
+}
+
+// Links mostly come in the order of the candidates.
+double DirectLight::light_of(const OrientedPoint& point, Span<const Link> links,
+                             const std::vector<float>& brightness) const {
+  const std::vector<LightGrid::Candidate>& there = grid_.at(point);
+  double sum = 0;
+  auto next = there.begin();
+  for (const Link& link : links) {
+    const int32_t emitter = emitters_.of_node(link.source);
+    if (next == there.end() || next->emitter > emitter) next = there.begin();
+    while (next != there.end() && next->emitter < emitter) ++next;
+    double chance = 1;
+    if (next != there.end() && next->emitter == emitter && next->hidden) {
+      const Emitter& e = emitters_.all()[emitter];
+      if (!is_near(e, point)) chance = wanted_of(e, true, point.place, point.normal).chance;
+    }
+    sum += chance * static_cast<double>(link.weight) * brightness[link.source];
+  }
+  return sum;
 }
 
 double DirectLight::rays_at(const OrientedPoint& point) const {

@@ -26,6 +26,11 @@ class DirectLight {
   // Any thread. Returns the number of rays.
   int64_t sample(const OrientedPoint& point, uint64_t key, std::vector<Link>& links) const;
 
+  // What links of sample() bring to its point, by the brightness of their sources: what was looked
+  // at by chance as if it always were, so that a mesh follows the light and not the chance.
+  double light_of(const OrientedPoint& point, Span<const Link> links,
+                  const std::vector<float>& brightness) const;
+
   // About the rays that sample() would take there.
   double rays_at(const OrientedPoint& point) const;
 
@@ -43,6 +48,7 @@ class DirectLight {
     double chance;
   };
   Wanted wanted_of(const Emitter& emitter, bool hidden, Vec3 x, Vec3 normal) const;
+  static bool is_near(const Emitter& emitter, const OrientedPoint& point);
   void add(const Emitter& emitter, const Wanted& wanted, uint64_t key, const OrientedPoint& point,
            Batch& batch) const;
   void add_group(const Emitter& group, const Wanted& wanted, uint64_t key,

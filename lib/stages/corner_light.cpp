@@ -151,10 +151,8 @@ bool CornerSampler::sample_some(size_t first, size_t end, double work) {
     const size_t before = links.size();
     is_new[k - first] = !state_.journal.known_run(wanted.name, is_emitter, links, rays[k - first]);
     if (is_new[k - first]) rays[k - first] = light_.sample(point_of(wanted), wanted.key, links);
-    double value = 0;
-    for (size_t l = before; l < links.size(); ++l)
-      value += static_cast<double>(links[l].weight) * brightness_.of_node[links[l].source];
-    return value;
+    return light_.light_of(point_of(wanted), {links.data() + before, links.size() - before},
+                           brightness_.of_node);
   };
   const auto first_of = [&](int64_t task) {
     return std::min(end, first + static_cast<size_t>(task) * corners_of_a_task);

@@ -167,7 +167,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
   };
   const OwnRows own(state, tools.exchange, cells, rays_of_cell);
   state.journal.next_pass();
-  bool going_on = true;
+  bool going_on = own.batches() > 0 || tools.progress(1);  // who has none may stop, too
   for (size_t batch = 0; batch < own.batches() && going_on; ++batch) {
     const size_t first = own.first_task(batch), tasks = own.first_task(batch + 1) - first;
     const size_t first_row = own.first_row(first);

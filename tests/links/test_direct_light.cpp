@@ -233,6 +233,20 @@ void what_is_hidden_is_looked_at_by_chance() {
   CHECK_NEAR(mean, wanted, 4 * error + 0.02 * wanted);
   CHECK(error < 0.1 * wanted);
   CHECK_NEAR(traced / keys, 0.125, 0.01);
+  // A mesh is shown no more than the lamp brings.
+  int seen = 0;
+  for (uint64_t key = 0; key < 200; ++key) {
+    std::vector<Link> links;
+    lit.light.sample({x, up}, key, links);
+    double shown = 0;
+    for (const Link& link : links)
+      shown += static_cast<double>(link.weight) * lit.expected.of_node[link.source];
+    const double light =
+        lit.light.light_of({x, up}, {links.data(), links.size()}, lit.expected.of_node);
+    CHECK_NEAR(light, 0.125 * shown, 1e-12 * shown);
+    seen += shown > 0;
+  }
+  CHECK(seen > 3 && seen < 40);
 }
 
 }  // namespace
