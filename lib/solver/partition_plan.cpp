@@ -8,7 +8,6 @@
 #include "base/draw.h"
 #include "base/frame.h"
 #include "base/hash.h"
-#include "base/low_discrepancy.h"
 #include "base/triangle_points.h"
 #include "solver/schedule.h"
 
@@ -30,18 +29,14 @@ double cells_of(double area, double largest) {
   return cells;
 }
 
-bool is_partly_sealed(const Forest& forest, const Surface& surface, const Exposure& exposure) {
+// Something of some size stands or hangs on it, and does not cover it.
+bool has_contacts(const Forest& forest, int32_t root, const Exposure& exposure) {
+  constexpr double of_some_size = 0.03, nearly_all = 0.97;
+  const Surface& surface = forest.surfaces[root];
   if (!exposure.can_be_sealed(surface.patch, surface.side)) return false;
-  constexpr int looks = 24;
-  const Triangle t = forest.scene->triangle(surface.patch);
-  int sealed = 0;
-  for (uint32_t k = 0; k < looks; ++k) {
-    double p[4], u, v;
-    low_discrepancy_point(static_cast<uint64_t>(surface.patch), k, p);
-    even_in_triangle(p[0], p[1], &u, &v);
-    sealed += exposure.sealed(surface.patch, surface.side, t.at(u, v));
-  }
-  return sealed > 0 && sealed < looks;
+  const Exposure::Part part(exposure, surface.patch, surface.side, forest.root_triangle(root));
+  const double pressed = part.pressed_share();
+  return pressed > of_some_size && pressed < nearly_all;
 }
 
 }  // namespace
@@ -54,12 +49,13 @@ std::vector<double> predicted_work(const Params& params, const State& state,
   const bool rows = by_rows(params, forest, inspection);
   const RowSettings settings = rows_of(params, forest, inspection.mean_distance, 1);
   std::vector<double> work(static_cast<size_t>(forest.scene->patch_count()), 0.0);
-  for (const Surface& surface : forest.surfaces) {
+  for (int32_t root = 0; root < forest.surface_count(); ++root) {
+    const Surface& surface = forest.surfaces[root];
     double rays = 0;
     if (rows) {
       const double cells = cells_of(surface.area, settings.cell_area);
       double points = points_of_a_cell * cells;
-      if (is_partly_sealed(forest, surface, exposure))
+      if (has_contacts(forest, root, exposure))
         points += points_of_contacts * std::sqrt(surface.area / settings.cell_area);
       rays = cells * settings.rays_of(surface.area / cells) + rays_of_a_point * points;
     } else {
