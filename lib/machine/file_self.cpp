@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "machine/descriptor.h"
+#include "machine/host_name.h"
 
 namespace hrad {
 
@@ -47,10 +48,8 @@ TemporaryNames::TemporaryNames(const std::string& target)
 
 // Processes of several machines may have one number.
 std::string TemporaryNames::name(int attempt) const {
-  char host[256] = "";
-  ::gethostname(host, sizeof host - 1);
   return folder + (folder.back() == '/' ? "" : "/") + beginning +
-         format("%08x-%ld-%d", static_cast<unsigned>(hash_of(host) >> 32),
+         format("%08x-%ld-%d", static_cast<unsigned>(hash_of(host_name().c_str()) >> 32),
                 static_cast<long>(::getpid()), attempt) +
          temporary_end;
 }

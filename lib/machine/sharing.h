@@ -44,6 +44,7 @@ void take_list(Taker& taker, List& list) {
   taker.take(list.data(), size);
 }
 
+// `all` must outlive them.
 inline std::vector<Taker> takers(const std::vector<Bytes>& all) {
   return std::vector<Taker>(all.begin(), all.end());
 }

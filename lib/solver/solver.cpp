@@ -18,6 +18,7 @@
 #include "solver/partition_plan.h"
 #include "solver/same_everywhere.h"
 #include "solver/solution.h"
+#include "solver/team_report.h"
 #include "stages/state_memory.h"
 
 namespace hrad {
@@ -77,12 +78,7 @@ void Solver::partition() {
   // Until its true size is known.
   const int64_t expected = scene_.patch_count() * kEngineBytesOfPatch;
   memory.take(expected, "the structure for rays");
-  const Topology topology = read_topology();
-  const PoolPlan plan = plan_pool(topology, params_.threads, params_.smt != 0, params_.bind != 0,
-                                  sharers_of_processors(*comm_, topology));
-  warn_of_crowd(topology, plan);
-  solution->team = std::make_unique<ThreadTeam>(plan.threads, plan.binding);
-  solution->team->set_observer(observer_);
+  start_team(*solution);
   solution->engine =
       make_visibility_engine(scene_, params_.visibility, params_.instruction_set, *solution->team);
   memory.take(solution->engine->bytes() - expected, "the structure for rays");
@@ -95,18 +91,18 @@ void Solver::partition() {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void Solver::warn_of_crowd(const Topology& topology, const PoolPlan& plan) const {
+void Solver::start_team(Solution& solution) const {
+  const Topology topology = read_topology();
+  const PoolPlan plan = plan_pool(topology, params_.threads, params_.smt != 0, params_.bind != 0,
+                                  sharers_of_processors(*comm_, topology));
+  report_teams(*comm_, topology, plan, log_);
   if (plan.threads > 1 && !comm_->threads_ok())
     log_.write(Log::warning,
                format("MPI was started for programs of one thread and the solver starts %d: call "
                       "MPI_Init_thread with MPI_THREAD_FUNNELED, or set the parameter threads to 1",
                       plan.threads));
-  const int threads = plan.threads * plan.sharers;
-  if (plan.sharers == 1 || threads <= topology.usable_contexts) return;
-  log_.write(Log::warning,
-             format("%d processes on this node would run %d threads on the same %d processors: "
-                    "start fewer, or give each its own, as by mpirun --map-by slot:PE=%d",
-                    plan.sharers, threads, topology.usable_contexts, plan.threads));
+  solution.team = std::make_unique<ThreadTeam>(plan.threads, plan.binding);
+  solution.team->set_observer(observer_);
 }
 
 // Gives every patch an owner.

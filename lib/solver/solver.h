@@ -121,7 +121,7 @@ class Solver {
  private:
   struct Solution;
   class Run;
-  void warn_of_crowd(const struct Topology& topology, const struct PoolPlan& plan) const;
+  void start_team(Solution& solution) const;
   void deal_out(Solution& solution) const;
   void require_solved() const;
   void measure_if_due() const;

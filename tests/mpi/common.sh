@@ -17,15 +17,16 @@ echo $$ >"process.$OMPI_COMM_WORLD_RANK"
 exec "$HRAD" "$@"
 END
 
-# launch RANKS ARGUMENTS...: begins, mpirun as process $launched, its ranks in the files process.K; what
-# they print in out, what they say in err.
+# launch RANKS ARGUMENTS...: begins, mpirun as process $launched, with the options of the array nodes, its
+# ranks in the files process.K; what they print in out, what they say in err.
+nodes=()
 launch() {
   local ranks=$1
   shift
-  ran="mpirun -n $ranks hrad $*"
+  ran="mpirun ${nodes[*]} -n $ranks hrad $*"
   rm -f process.[0-9]* launcher out err
   # shellcheck disable=SC2016
-  timeout 500 bash -c 'echo $$ >launcher; exec "$@"' - mpirun -n "$ranks" bash process.sh "$@" \
+  timeout 500 bash -c 'echo $$ >launcher; exec "$@"' - mpirun "${nodes[@]}" -n "$ranks" bash process.sh "$@" \
     </dev/null >out 2>err &
   launched=$!
 }
