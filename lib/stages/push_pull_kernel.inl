@@ -1,44 +1,66 @@
 // Included once per instruction set, inside its namespace, behind four_lanes.inl. Push and pull.
 // Floor 7 (stages).
 
-// Of some bands next to each other.
+// Of some bands next to each other, in the trees of one surface after the other.
 template <int Lanes>
 class TreeSweep {
  public:
-  TreeSweep(const PushPullTree& tree, int first_band)
-      : nodes_(tree.nodes),
-        bands_(static_cast<size_t>(tree.bands)),
-        irradiance_(tree.irradiance + first_band),
-        radiosity_(tree.radiosity + first_band) {
-    take_some<Lanes>(tree.emission + first_band, emission_);
-    take_some<Lanes>(tree.reflectance + first_band, reflectance_);
-  }
+  TreeSweep(const PushPullRoots& all, int first_band)
+      : nodes_(all.nodes),
+        bands_(static_cast<size_t>(all.bands)),
+        emission_of_patch_(all.emission + first_band),
+        reflectance_of_patch_(all.reflectance + first_band),
+        irradiance_(all.irradiance + first_band),
+        radiosity_(all.radiosity + first_band) {}
 
-  // Adds irradiance times exposed share, and that share, as means over the node's area, to `sum`
-  // and `weight`.
-  void go(NodeId id, const FourDoubles& from_above, FourDoubles& sum, double& weight) {
-    FourDoubles down;
-    widen_some<Lanes>(irradiance_ + at(id), down);
-    down += from_above;
-    const FourDoubles nothing = {};
-    const Node& node = nodes_[id];
-    if (node.first_child < 0) {
-      const double exposed = node.exposed;
-      write(id, exposed > 0 ? down : nothing, down);
-      sum += exposed * down;
-      weight += exposed;
-      return;
-    }
-    FourDoubles below = {};
-    double exposed = 0;
-    for (NodeId child = node.first_child; child < node.first_child + 4; ++child)
-      go(child, down, below, exposed);
-    sum += below / 4.0;
-    write(id, exposed > 0 ? below / exposed : nothing, below);
-    weight += exposed / 4;
+  // The leaves' irradiance times exposed share, as the mean over the root's area.
+  void sweep(NodeId root, int32_t patch, FourDoubles& sum) {
+    const size_t of_patch = static_cast<size_t>(patch) * bands_;
+    take_some<Lanes>(emission_of_patch_ + of_patch, emission_);
+    take_some<Lanes>(reflectance_of_patch_ + of_patch, reflectance_);
+    const Node& node = nodes_[root];
+    FourDoubles from_above = {};
+    if (node.parent >= 0) widen_some<Lanes>(irradiance_ + at(node.parent), from_above);
+    double weight = 0;
+    go(root, node, from_above, sum, weight);
   }
 
  private:
+  // Adds irradiance times exposed share, and that share, as means over the node's area, to `sum`
+  // and `weight`.
+  void go(NodeId id, const Node& node, const FourDoubles& from_above, FourDoubles& sum,
+          double& weight) {
+    if (node.first_child < 0)
+      at_leaf(id, node, from_above, sum, weight);
+    else
+      below(id, node, from_above, sum, weight);
+  }
+  void at_leaf(NodeId id, const Node& node, const FourDoubles& from_above, FourDoubles& sum,
+               double& weight) {
+    FourDoubles down;
+    widen_some<Lanes>(irradiance_ + at(id), down);
+    down += from_above;
+    const double exposed = node.exposed;
+    const FourDoubles nothing = {};
+    write(id, exposed > 0 ? down : nothing, down);
+    sum += exposed * down;
+    weight += exposed;
+  }
+  void below(NodeId id, const Node& node, const FourDoubles& from_above, FourDoubles& sum,
+             double& weight) {
+    FourDoubles down;
+    widen_some<Lanes>(irradiance_ + at(id), down);
+    down += from_above;
+    FourDoubles pulled = {};
+    double exposed = 0;
+    for (NodeId child = node.first_child; child < node.first_child + 4; ++child)
+      go(child, nodes_[child], down, pulled, exposed);
+    sum += pulled / 4.0;
+    const FourDoubles nothing = {};
+    write(id, exposed > 0 ? pulled / exposed : nothing, pulled);
+    weight += exposed / 4;
+  }
+
   size_t at(NodeId id) const { return static_cast<size_t>(id) * bands_; }
   // kept: in single precision, of which parents have the means.
   void write(NodeId id, FourDoubles irradiance, FourDoubles& kept) {
@@ -52,27 +74,30 @@ class TreeSweep {
 
   const Node* const nodes_;
   const size_t bands_;
+  const double *const emission_of_patch_, *const reflectance_of_patch_;
   float *const irradiance_, *const radiosity_;
   FourDoubles emission_, reflectance_;
 };
 
 template <int Lanes>
-inline void push_pull_some(const PushPullTree& tree, int first_band, double* sum) {
-  FourDoubles from_above, all = {};
-  take_some<Lanes>(tree.from_above + first_band, from_above);
-  double weight = 0;
-  TreeSweep<Lanes>(tree, first_band).go(tree.root, from_above, all, weight);
-  std::memcpy(sum + first_band, &all, Lanes * sizeof(double));
+inline void push_pull_some(const PushPullRoots& all, int first_band, double* sums) {
+  TreeSweep<Lanes> sweep(all, first_band);
+  for (size_t k = 0; k < all.count; ++k) {
+    FourDoubles sum = {};
+    sweep.sweep(all.roots[k], all.surfaces[all.roots[k]].patch, sum);
+    std::memcpy(sums + k * static_cast<size_t>(all.bands) + first_band, &sum,
+                Lanes * sizeof(double));
+  }
 }
 
 // Four bands at a time.
-inline void push_pull(const PushPullTree& tree, double* sum) {
+inline void push_pull(const PushPullRoots& all, double* sums) {
   int band = 0;
-  for (; tree.bands - band >= 4; band += 4) push_pull_some<4>(tree, band, sum);
-  switch (tree.bands - band) {
-    case 3: return push_pull_some<3>(tree, band, sum);
-    case 2: return push_pull_some<2>(tree, band, sum);
-    case 1: return push_pull_some<1>(tree, band, sum);
+  for (; all.bands - band >= 4; band += 4) push_pull_some<4>(all, band, sums);
+  switch (all.bands - band) {
+    case 3: return push_pull_some<3>(all, band, sums);
+    case 2: return push_pull_some<2>(all, band, sums);
+    case 1: return push_pull_some<1>(all, band, sums);
     default: return;
   }
 }

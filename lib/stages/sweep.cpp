@@ -48,33 +48,30 @@ std::vector<double> surface_sums(const State& state, ThreadTeam& team, const Exc
 // Returns the sums of irradiance times exposed area, each thread having added up some of them.
 std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exchange) {
   const Scene& scene = *state.forest.scene;
+  const Forest& forest = state.forest;
   const size_t bands = static_cast<size_t>(state.bands);
   const PushPull push_pull = sweep_kernels()[0]->push_pull;
   std::vector<std::vector<ExactSum>> of_thread(static_cast<size_t>(team.size()));
   for (std::vector<ExactSum>& sums : of_thread) sums.resize(bands);
-  const auto go = [&](NodeId root, std::vector<ExactSum>& sums) {
-    const Surface& surface = state.forest.surfaces[root];
-    const size_t patch = static_cast<size_t>(surface.patch) * bands;
-    double row[most_bands], from_above[most_bands];
-    const NodeId cluster = state.forest.nodes[root].parent;
-    for (size_t b = 0; b < bands; ++b)
-      from_above[b] = cluster < 0 ? 0 : state.irradiance[static_cast<size_t>(cluster) * bands + b];
-    push_pull(
-        {state.forest.nodes.data(), root, state.bands, &scene.emission[patch],
-         &scene.reflectance[patch], from_above, state.irradiance.data(), state.radiosity.data()},
-        row);
-    for (size_t b = 0; b < bands; ++b) sums[b].add(row[b] * surface.area);
+  const size_t all = static_cast<size_t>(forest.surface_count());
+  const auto some = [&](int64_t task, int thread) {
+    NodeId roots[surfaces_of_a_task];
+    double rows[surfaces_of_a_task * most_bands];
+    const size_t begin = static_cast<size_t>(task) * surfaces_of_a_task;
+    size_t own = 0;
+    for (size_t k = begin; k < std::min(all, begin + surfaces_of_a_task); ++k)
+      if (exchange.mine(static_cast<int32_t>(k))) roots[own++] = static_cast<NodeId>(k);
+    push_pull({forest.nodes.data(), forest.surfaces.data(), roots, own, state.bands,
+               scene.emission.data(), scene.reflectance.data(), state.irradiance.data(),
+               state.radiosity.data()},
+              rows);
+    std::vector<ExactSum>& sums = of_thread[static_cast<size_t>(thread)];
+    const double* value = rows;
+    for (size_t k = 0; k < own; ++k)
+      for (size_t b = 0; b < bands; ++b)
+        sums[b].add(*value++ * forest.surfaces[static_cast<size_t>(roots[k])].area);
   };
-  const size_t roots = static_cast<size_t>(state.forest.surface_count());
-  team.for_each(static_cast<int64_t>(pieces_of(roots, surfaces_of_a_task)),
-                [&](int64_t task, int thread) {
-                  const size_t begin = static_cast<size_t>(task) * surfaces_of_a_task;
-                  const size_t end = std::min(roots, begin + surfaces_of_a_task);
-                  for (size_t k = begin; k < end; ++k) {
-                    const NodeId root = static_cast<NodeId>(k);
-                    if (exchange.mine(root)) go(root, of_thread[static_cast<size_t>(thread)]);
-                  }
-                });
+  team.for_each(static_cast<int64_t>(pieces_of(all, surfaces_of_a_task)), some);
   std::vector<ExactSum>& sums = of_thread.front();
   for (size_t thread = 1; thread < of_thread.size(); ++thread)
     for (size_t b = 0; b < bands; ++b) sums[b].add(of_thread[thread][b]);

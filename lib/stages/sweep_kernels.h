@@ -14,24 +14,26 @@ namespace hrad {
 // The values of a node are taken so many at a time.
 constexpr int most_lanes = 4;
 
-// For two to four bands. Run k ends at ends[k], where the next one begins. sources: bands values per node, and most_lanes
-// more that don't count. Adds to the bands values of `out` of receivers[k] a sum in double
-// precision, in the order of the run.
+// For two to four bands. Run k ends at ends[k], where the next one begins. sources: bands values
+// per node, and most_lanes more that don't count. Adds to the bands values of `out` of receivers[k]
+// a sum in double precision, in the order of the run.
 using GatherRuns = void (*)(const Link* links, const uint32_t* ends, const uint16_t* receivers,
                             size_t runs, const float* sources, int bands, float* out);
 
-// Of one tree.
-struct PushPullTree {
+// The trees of some surfaces.
+struct PushPullRoots {
   const Node* nodes;
-  NodeId root;
+  const Surface* surfaces;
+  const NodeId* roots;
+  size_t count;  // of roots
   int bands;
-  const double *emission, *reflectance, *from_above;  // bands values
-  float *irradiance, *radiosity;                      // of all nodes, bands values each
+  const double *emission, *reflectance;  // of all patches, bands values each
+  float *irradiance, *radiosity;         // of all nodes, likewise; that of clusters is pushed, too
 };
 // E and rho being the same all over a patch, B = E + rho H holds for means too: irradiance alone is
-// pulled. Returns in `sum` the leaves' irradiance times exposed share, as the mean over the root's
-// area.
-using PushPull = void (*)(const PushPullTree& tree, double* sum);
+// pulled. Returns in `sums`, bands values per root, the leaves' irradiance times exposed share, as
+// the mean over the root's area.
+using PushPull = void (*)(const PushPullRoots& all, double* sums);
 
 struct SweepKernels {
   GatherRuns gather;
