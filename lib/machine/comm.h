@@ -51,6 +51,7 @@ class Comm {
   // finish(), after which the next exchange may start. Work between the two overlaps the messages.
   void start_exchange(std::vector<Bytes> to);
   std::vector<Bytes> finish_exchange();
+  bool exchanging() const { return exchanging_; }  // started and not yet finished
   std::vector<Bytes> exchange(std::vector<Bytes> to) {
     start_exchange(std::move(to));
     return finish_exchange();

@@ -176,20 +176,21 @@ bool Solver::Run::sweep(int round) {
     return of_later_rounds(round, seconds_of_round_) + of_measuring();
   });
   if (!solution_.sweeping) begin_sweeps(round);
-  const std::vector<uint32_t> blocks = own_blocks(state_, exchange_);
+  const OwnRuns runs(state_, exchange_, *solution_.team);
   StageMemory memory(state_);
-  memory.take(static_cast<int64_t>(blocks.capacity() * sizeof blocks[0]), "lists of receivers");
+  memory.take(runs.bytes(), "lists of receivers");
   bool going_on = true;
   solution_.converged = false;
   while (going_on && !solution_.converged && !out_of_sweeps()) {
     solution_.converged =
-        solution_.convergence.reached(hrad::sweep(state_, *solution_.team, exchange_, blocks));
+        solution_.convergence.reached(hrad::sweep(state_, *solution_.team, exchange_, runs));
     ++solver_.stats_.iterations;
     solution_.sweeping = !solution_.converged && !out_of_sweeps();
     const double share = solution_.convergence.share_of_way();
     going_on = exchange_.all_go_on(clock_.report(share, solver_.stats_.iterations));
   }
   seconds_of_sweeps_ = clock_.seconds_of_stage();
+  exchange_.finish_update(state_, *solution_.team);
   exchange_.share_light(state_);
   solver_.stats_.seconds_iterative +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

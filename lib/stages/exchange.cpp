@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <utility>
 
 #include "machine/pieces.h"
@@ -70,25 +71,35 @@ void Exchange::ask_for_sources(const State& state, ThreadTeam& team) {
   }
 }
 
-void Exchange::update(State& state, ThreadTeam& team) {
+void Exchange::start_update(const State& state, ThreadTeam& team) {
   if (alone()) return;
   const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
-  const auto values_of = [&](NodeId id) {
-    return reinterpret_cast<char*>(&state.radiosity[static_cast<size_t>(id) * bands]);
-  };
   std::vector<Bytes> to(asked_by_.size());
   for (size_t rank = 0; rank < to.size(); ++rank) {
     to[rank].resize(asked_by_[rank].size() * bytes);
     for_each_thing(team, asked_by_[rank].size(), [&](size_t k) {
-      std::copy_n(values_of(asked_by_[rank][k]), bytes, &to[rank][k * bytes]);
+      const size_t at = static_cast<size_t>(asked_by_[rank][k]) * bands;
+      std::memcpy(&to[rank][k * bytes], &state.radiosity[at], bytes);
     });
   }
   count(updates, to);
-  const std::vector<Bytes> from = comm_.exchange(std::move(to));
+  comm_.start_exchange(std::move(to));
+}
+
+void Exchange::finish_update(State& state, ThreadTeam& team) {
+  if (!comm_.exchanging()) return;
+  const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
+  const std::vector<Bytes> from = comm_.finish_exchange();
   for (size_t rank = 0; rank < from.size(); ++rank)
     for_each_thing(team, asked_of_[rank].size(), [&](size_t k) {
-      std::copy_n(&from[rank][k * bytes], bytes, values_of(asked_of_[rank][k]));
+      const size_t at = static_cast<size_t>(asked_of_[rank][k]) * bands;
+      std::memcpy(&state.radiosity[at], &from[rank][k * bytes], bytes);
     });
+}
+
+// MPI moves large messages only within its own functions.
+void Exchange::make_progress() const {
+  if (comm_.exchanging()) comm_.raised();
 }
 
 void Exchange::count_totals(int64_t bytes) {

@@ -72,8 +72,15 @@ class Exchange {
 
   // Asks for the elements that own links have begun to name since the last time (R).
   void ask_for_sources(const State& state, ThreadTeam& team);
-  // Tells others the radiosity of what they have asked for (U): theirs is here afterwards.
-  void update(State& state, ThreadTeam& team);
+  bool comes_by_message(NodeId source) const {
+    return static_cast<size_t>(source) < asked_.size() && asked_[static_cast<size_t>(source)] != 0;
+  }
+  // Tells others the radiosity of what they have asked for (U). Theirs is here after
+  // finish_update(), which does nothing where there is no update under way; work between the two
+  // overlaps the messages, which make_progress() is to help along now and then (not collective).
+  void start_update(const State& state, ThreadTeam& team);
+  void finish_update(State& state, ThreadTeam& team);
+  void make_progress() const;
   // What all processes have added up, a sum for each band (T).
   void add_up(std::vector<ExactSum>& sums);
   // Light on the roots, known to all (T).

@@ -2,6 +2,7 @@
 #include "stages/gather.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "stages/sweep_kernels.h"
@@ -22,22 +23,52 @@ void gather_run(Span<const Link> links, const State& state, float* out) {
   for (int band = 0; band < state.bands; ++band) out[band] = static_cast<float>(sum[band]);
 }
 
-// Adds what arrives over the links of one block of receivers.
-void add_block(const State& state, const LinkTable::Block& block, float* out) {
+// Adds what arrives over some runs of one block of receivers, those that wait or the others.
+void add_runs(const State& state, const LinkTable::Block& block, const OwnRuns::Runs* waits,
+              bool wanted, float* out) {
   uint16_t receivers[LinkTable::receivers_of_a_block];
   size_t runs = 0;
   block.has_links.for_each([&](size_t k) { receivers[runs++] = static_cast<uint16_t>(k); });
-  if (state.bands >= 2 && state.bands <= most_lanes) {
-    sweep_kernels()[0]->gather(block.links.data(), block.ends.data(), receivers, runs,
-                               state.radiosity.data(), state.bands, out);
-    return;
-  }
+  const bool by_kernel = state.bands >= 2 && state.bands <= most_lanes;
   const size_t bands = static_cast<size_t>(state.bands);
-  for (size_t run = 0, first = 0; run < runs; first = block.ends[run++]) {
-    float light[most_bands];
-    gather_run({block.links.data() + first, block.ends[run] - first}, state, light);
-    for (size_t b = 0; b < bands; ++b) out[receivers[run] * bands + b] += light[b];
+  for (size_t run = 0; run < runs;) {
+    const size_t begin = run;
+    const bool kind = waits && (*waits)[run];
+    while (run < runs && (!waits || (*waits)[run] == kind)) ++run;
+    if (kind != wanted) continue;
+    uint32_t first = begin > 0 ? block.ends[begin - 1] : 0;
+    if (by_kernel) {
+      sweep_kernels()[0]->gather(block.links.data(), first, &block.ends[begin], receivers + begin,
+                                 run - begin, state.radiosity.data(), state.bands, out);
+      continue;
+    }
+    for (size_t k = begin; k < run; first = block.ends[k++]) {
+      float light[most_bands];
+      gather_run({block.links.data() + first, block.ends[k] - first}, state, light);
+      for (size_t b = 0; b < bands; ++b) out[receivers[k] * bands + b] += light[b];
+    }
   }
+}
+
+float* irradiance_of_block(State& state, size_t number) {
+  return &state.irradiance[number * LinkTable::receivers_of_a_block *
+                           static_cast<size_t>(state.bands)];
+}
+
+void set_to_nothing(State& state, size_t number) {
+  const size_t values =
+      state.links.block(number).has_links.size() * static_cast<size_t>(state.bands);
+  std::fill_n(irradiance_of_block(state, number), values, 0.0f);
+}
+
+// waits: of both tables, nullptr: no run does.
+void add_block(State& state, size_t number, const std::array<OwnRuns::Runs, 2>* waits,
+               bool wanted) {
+  float* const out = irradiance_of_block(state, number);
+  const LinkTable* const tables[] = {&state.links, &state.direct.mean};
+  for (size_t t = 0; t < 2; ++t)
+    if (number < tables[t]->block_count())
+      add_runs(state, tables[t]->block(number), waits ? &(*waits)[t] : nullptr, wanted, out);
 }
 
 }  // namespace
@@ -57,19 +88,33 @@ void gather_direct(const State& state, NodeId leaf, float* irradiance) {
   gather_run(state.direct.mean[leaf].links(), state, irradiance);
 }
 
-void gather(State& state, ThreadTeam& team, const std::vector<uint32_t>& blocks) {
-  const size_t bands = static_cast<size_t>(state.bands);
-  const size_t count = blocks.empty() ? state.links.block_count() : blocks.size();
-  team.for_each(static_cast<int64_t>(count), [&](int64_t task, int) {
-    const size_t at = static_cast<size_t>(task);
-    const size_t number = blocks.empty() ? at : blocks[at];
-    const LinkTable::Block& block = state.links.block(number);
-    const size_t first = number * LinkTable::receivers_of_a_block * bands;
-    float* const out = &state.irradiance[first];
-    std::fill(out, out + block.has_links.size() * bands, 0.0f);
-    add_block(state, block, out);
-    if (number < state.direct.mean.block_count())
-      add_block(state, state.direct.mean.block(number), out);
+void gather(State& state, ThreadTeam& team) {
+  team.for_each(static_cast<int64_t>(state.links.block_count()), [&](int64_t task, int) {
+    const size_t number = static_cast<size_t>(task);
+    set_to_nothing(state, number);
+    add_block(state, number, nullptr, false);
+  });
+}
+
+void gather_what_is_here(State& state, ThreadTeam& team, const OwnRuns& runs,
+                         const Exchange& exchange) {
+  if (runs.all()) return gather(state, team);
+  const auto add = [&](int64_t task, int) {
+    const OwnRuns::Block& block = runs.blocks()[static_cast<size_t>(task)];
+    set_to_nothing(state, block.number);
+    add_block(state, block.number, &block.waits, false);
+  };
+  team.for_each(static_cast<int64_t>(runs.blocks().size()), add, [&](int64_t) {
+    exchange.make_progress();
+    return true;
+  });
+}
+
+// Each receiver has at most two runs, so that their order changes no bit.
+void gather_what_has_come(State& state, ThreadTeam& team, const OwnRuns& runs) {
+  team.for_each(static_cast<int64_t>(runs.blocks().size()), [&](int64_t task, int) {
+    const OwnRuns::Block& block = runs.blocks()[static_cast<size_t>(task)];
+    if (block.any_waits()) add_block(state, block.number, &block.waits, true);
   });
 }
 

@@ -2,8 +2,7 @@
 // product over frozen links. Floor 7 (stages).
 #pragma once
 
-#include <vector>
-
+#include "stages/own_runs.h"
 #include "stages/state.h"
 
 namespace hrad {
@@ -18,8 +17,12 @@ void gather_links(const State& state, NodeId node, float* irradiance);
 void gather_direct(const State& state, NodeId leaf, float* irradiance);
 
 // state.irradiance = links x state.radiosity, and at leaves the mean of their direct light, for
-// push_pull() to spread: in double precision and in the order of each run. blocks: those of
-// LinkTable to be gathered for, empty: all.
-void gather(State& state, ThreadTeam& team, const std::vector<uint32_t>& blocks = {});
+// push_pull() to spread: in double precision and in the order of each run.
+void gather(State& state, ThreadTeam& team);
+// The same of a process's own runs, in two steps: of those that need no message, helping those
+// under way along, and then of those that wait for them.
+void gather_what_is_here(State& state, ThreadTeam& team, const OwnRuns& runs,
+                         const Exchange& exchange);
+void gather_what_has_come(State& state, ThreadTeam& team, const OwnRuns& runs);
 
 }  // namespace hrad

@@ -54,8 +54,9 @@ Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
   reset_to_emission(state, tools.team);
   // Emitters, whose light the leaves have links to before there are rows.
   tools.exchange.ask_for_sources(state, tools.team);
-  const std::vector<uint32_t> blocks = own_blocks(state, tools.exchange);
-  for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, blocks);
+  const OwnRuns runs(state, tools.exchange, tools.team);
+  for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, runs);
+  tools.exchange.finish_update(state, tools.team);
   if (state.forest.clusters.empty()) tools.exchange.share_roots(state);
   Brightness light = measure_brightness(state, tools.team, tools.exchange);
   stay_near_the_mean(state, light);

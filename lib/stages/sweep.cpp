@@ -120,23 +120,12 @@ float spread_below(const State& state, NodeId id, const std::vector<double>& uni
 
 }  // namespace
 
-std::vector<uint32_t> own_blocks(const State& state, const Exchange& exchange) {
-  std::vector<uint32_t> blocks;
-  if (exchange.alone()) return blocks;
-  for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
-    const uint32_t block = static_cast<uint32_t>(k / LinkTable::receivers_of_a_block);
-    if (!blocks.empty() && blocks.back() == block) continue;
-    const Node& node = state.forest.nodes[k];
-    if (Forest::is_cluster(node) || exchange.mine(node.surface)) blocks.push_back(block);
-  }
-  return blocks;
-}
-
-std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange,
-                          const std::vector<uint32_t>& blocks) {
-  gather(state, team, blocks);
+std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, const OwnRuns& runs) {
+  gather_what_is_here(state, team, runs, exchange);
+  exchange.finish_update(state, team);
+  gather_what_has_come(state, team, runs);
   std::vector<double> transported = push_pull(state, team, exchange);
-  exchange.update(state, team);
+  exchange.start_update(state, team);
   return transported;
 }
 

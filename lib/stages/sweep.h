@@ -4,17 +4,15 @@
 
 #include "stages/exchange.h"
 #include "stages/gather.h"
+#include "stages/own_runs.h"
 #include "stages/state.h"
 
 namespace hrad {
 
-// One iteration: gathering over own links, sweeping on own surfaces, and their radiosity told to
-// whoever has asked for it. blocks: what own_blocks() says. Returns what push_pull() does.
-std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange,
-                          const std::vector<uint32_t>& blocks);
-
-// Blocks of receivers in which some are clusters or this process's own; empty: all.
-std::vector<uint32_t> own_blocks(const State& state, const Exchange& exchange);
+// One iteration: gathering over own links, sweeping on own surfaces, and their radiosity sent to
+// whoever has asked for it: what others send the next iteration takes, or
+// Exchange::finish_update() after the last one. Returns what push_pull() does.
+std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, const OwnRuns& runs);
 
 // From what gather() left in state.irradiance makes that and state.radiosity of every node. Means
 // are over the exposed part; a node sealed all over has B = E and H = 0. Returns the radiosity

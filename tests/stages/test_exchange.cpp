@@ -1,8 +1,10 @@
 // Requests and updates: an element's radiosity is asked for once, by who links to it, and told
 // again in every sweep without being asked.
+#include <algorithm>
 #include <vector>
 
 #include "stages/exchange.h"
+#include "stages/gather.h"
 #include "support/thread_ranks.h"
 #include "support/workbench.h"
 
@@ -58,7 +60,8 @@ void elements_are_asked_for_once() {
         if (exchange.mine(state.forest, k))
           state.radiosity[static_cast<size_t>(k * state.bands)] =
               static_cast<float>(k + 1000 * sweep);
-      exchange.update(state, team);
+      exchange.start_update(state, team);
+      exchange.finish_update(state, team);
     }
     counts[3][static_cast<size_t>(rank)] = exchange.counts();
     const auto at = [&](NodeId id) {
@@ -83,6 +86,48 @@ void elements_are_asked_for_once() {
     CHECK_EQUAL(counts[3][rank].bytes[1], int64_t{3} * 5 * 3 * static_cast<int64_t>(sizeof(float)));
     CHECK(seen[rank] == 1.0f);
   }
+}
+
+// Of two receivers one has an own source, the other one that its owner tells of: the first is
+// gathered for while messages fly, the second when they have come.
+void what_needs_no_message_does_not_wait() {
+  const Scene scene = builtin_scene("cornell");
+  std::vector<uint8_t> right(ranks, 0);
+  on_ranks(ranks, [&](Comm& comm) {
+    State state(scene);
+    ThreadTeam team(2);
+    std::vector<int32_t> owner;
+    for (NodeId k = 0; k < static_cast<NodeId>(state.forest.surface_count()); ++k)
+      owner.push_back(owner_of(k));
+    split_all(state.forest, 1);
+    state.resize_light();
+    Exchange exchange(comm, owner);
+    const NodeId here = comm.rank(), waiting = here + ranks, next = (here + 1) % ranks;
+    const Link own{state.forest.nodes[here].first_child, 0.5f};
+    const Link of_next{state.forest.nodes[next].first_child, 0.25f};
+    state.links.resize(state.forest.nodes.size());
+    state.links.replace({{here, {&own, 1}}, {waiting, {&of_next, 1}}});
+    exchange.ask_for_sources(state, team);
+    const OwnRuns runs(state, exchange, team);
+    const size_t bands = static_cast<size_t>(state.bands);
+    const auto value = [&](std::vector<float>& values, NodeId id) -> float& {
+      return values[static_cast<size_t>(id) * bands];
+    };
+    value(state.radiosity, own.source) = static_cast<float>(here + 1);
+    std::fill(state.irradiance.begin(), state.irradiance.end(), 7.0f);
+    exchange.start_update(state, team);
+    gather_what_is_here(state, team, runs, exchange);
+    bool all = !runs.all() && runs.blocks().size() == 1 && runs.blocks()[0].any_waits() &&
+               value(state.irradiance, here) == 0.5f * static_cast<float>(here + 1) &&
+               value(state.irradiance, waiting) == 0;
+    exchange.finish_update(state, team);
+    exchange.finish_update(state, team);  // there is none any more
+    gather_what_has_come(state, team, runs);
+    all = all && value(state.irradiance, here) == 0.5f * static_cast<float>(here + 1) &&
+          value(state.irradiance, waiting) == 0.25f * static_cast<float>(next + 1);
+    right[static_cast<size_t>(comm.rank())] = all;
+  });
+  for (uint8_t r : right) CHECK(r);
 }
 
 // Numbers whose sum depends on the order in which doubles are added.
@@ -138,7 +183,8 @@ void roots_are_shared() {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {HRAD_TEST(elements_are_asked_for_once), HRAD_TEST(totals_are_exact),
-                              HRAD_TEST(roots_are_shared)};
+  const CMUnitTest tests[] = {HRAD_TEST(elements_are_asked_for_once),
+                              HRAD_TEST(what_needs_no_message_does_not_wait),
+                              HRAD_TEST(totals_are_exact), HRAD_TEST(roots_are_shared)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,0 +1,51 @@
+// Whose receivers, and whose sources. Floor 7 (stages).
+#include "stages/own_runs.h"
+
+#include <algorithm>
+
+#include "machine/pieces.h"
+
+namespace hrad {
+namespace {
+
+OwnRuns::Runs waiting(const LinkTable& table, size_t number, const Exchange& exchange) {
+  OwnRuns::Runs waits;
+  if (number >= table.block_count()) return waits;
+  const LinkTable::Block& block = table.block(number);
+  size_t first = 0;
+  for (size_t run = 0; run < block.ends.size(); first = block.ends[run++])
+    waits[run] =
+        std::any_of(block.links.data() + first, block.links.data() + block.ends[run],
+                    [&](const Link& link) { return exchange.comes_by_message(link.source); });
+  return waits;
+}
+
+}  // namespace
+
+OwnRuns::OwnRuns(const State& state, const Exchange& exchange, ThreadTeam& team) {
+  if (exchange.alone()) return;
+  all_ = false;
+  const std::vector<Node>& nodes = state.forest.nodes;
+  constexpr size_t of_a_block = LinkTable::receivers_of_a_block;
+  std::vector<uint8_t> is_own(pieces_of(nodes.size(), of_a_block), 0);
+  for_each_piece(
+      team, nodes.size(),
+      [&](size_t block, size_t begin, size_t end) {
+        is_own[block] = std::any_of(&nodes[begin], nodes.data() + end, [&](const Node& node) {
+          return Forest::is_cluster(node) || exchange.mine(node.surface);
+        });
+      },
+      of_a_block);
+  for (size_t block = 0; block < is_own.size(); ++block)
+    if (is_own[block]) {
+      blocks_.emplace_back();
+      blocks_.back().number = static_cast<uint32_t>(block);
+    }
+  team.for_each(static_cast<int64_t>(blocks_.size()), [&](int64_t k, int) {
+    Block& block = blocks_[static_cast<size_t>(k)];
+    block.waits = {waiting(state.links, block.number, exchange),
+                   waiting(state.direct.mean, block.number, exchange)};
+  });
+}
+
+}  // namespace hrad

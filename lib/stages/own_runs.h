@@ -1,0 +1,42 @@
+// The runs of links that a process gathers over, and which of them wait for what others tell: the
+// rest need no message and are gathered over while messages fly (paper, Section 3.1).
+// Floor 7 (stages).
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <vector>
+
+#include "stages/exchange.h"
+#include "stages/state.h"
+
+namespace hrad {
+
+class OwnRuns {
+ public:
+  // A bit for each run of a block, in order.
+  using Runs = std::bitset<LinkTable::receivers_of_a_block>;
+  // One of LinkTable in which some receivers are clusters or this process's own.
+  struct Block {
+    uint32_t number = 0;
+    std::array<Runs, 2> waits;  // of State::links, and of direct light
+
+    bool any_waits() const { return waits[0].any() || waits[1].any(); }
+  };
+
+  // All of them, and none that waits: of a process that is alone.
+  OwnRuns() = default;
+  // As it stands once it has asked for its sources.
+  OwnRuns(const State& state, const Exchange& exchange, ThreadTeam& team);
+
+  bool all() const { return all_; }
+  const std::vector<Block>& blocks() const { return blocks_; }
+  int64_t bytes() const { return static_cast<int64_t>(blocks_.capacity() * sizeof(Block)); }
+
+ private:
+  bool all_ = true;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace hrad
