@@ -1,6 +1,7 @@
 // Results of tasks, each done by one process, made known to all of them. Floor 2 (machine).
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <vector>
@@ -76,6 +77,23 @@ void share_lists(Comm& comm, std::vector<std::vector<T>>& lists, const OwnerOf& 
   share(
       comm, lists.size(), owner_of, [&](size_t k, Bytes& bytes) { put_list(bytes, lists[k]); },
       [&](size_t k, Taker& taker) { take_list(taker, lists[k]); });
+}
+
+// Collective. Marks that are 0 but for few: each process gives those that it has set, no two the
+// same one, and all have all of them afterwards.
+inline void share_marks(Comm& comm, std::vector<uint8_t>& marks) {
+  if (comm.alone()) return;
+  std::vector<uint32_t> places;
+  Bytes own;
+  for (size_t k = 0; k < marks.size(); ++k)
+    if (marks[k] != 0) places.push_back(static_cast<uint32_t>(k));
+  put_list(own, places);
+  for (uint32_t place : places) put(own, &marks[place], 1);
+  for (const Bytes& of_rank : comm.gather_all(own)) {
+    Taker taker(of_rank);
+    take_list(taker, places);
+    for (uint32_t place : places) taker.take(&marks[place], 1);
+  }
 }
 
 // Collective. Rank 0's values, on all.

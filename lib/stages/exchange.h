@@ -51,6 +51,8 @@ class Exchange {
   void share_lists(std::vector<std::vector<T>>& lists, const SurfaceOf& surface_of) const {
     hrad::share_lists(comm_, lists, [&](size_t k) { return owner_[surface_of(k)]; });
   }
+  // Marks of the owners, 0 but for few.
+  void share_marks(std::vector<uint8_t>& marks) const { hrad::share_marks(comm_, marks); }
   // Every process's values one after the other, in any order.
   template <class T>
   void unite(std::vector<T>& values) const {

@@ -59,7 +59,7 @@ struct LeafLight::Shares {
   }
 };
 
-std::vector<NodeId> LeafLight::new_leaves() {
+std::vector<NodeId> LeafLight::new_leaves(Whose whose) {
   forget_divided();
   const NodeId first = named_, end = static_cast<NodeId>(forest_.nodes.size());
   named_ = end;
@@ -68,17 +68,14 @@ std::vector<NodeId> LeafLight::new_leaves() {
       tools_.team, static_cast<size_t>(end - first), [&](size_t k, std::vector<NodeId>& leaves) {
         const NodeId id = first + static_cast<NodeId>(k);
         const Node& node = forest_.nodes[id];
-        if (!Forest::is_cluster(node) && forest_.is_leaf(id) && node.exposed > 0)
+        if (!Forest::is_cluster(node) && forest_.is_leaf(id) && node.exposed > 0 &&
+            (whose == Whose::all || tools_.exchange.mine(node.surface)))
           leaves.push_back(id);
       });
 }
 
 bool LeafLight::name() {
-  std::vector<NodeId> leaves = new_leaves();
-  const auto is_others = [&](NodeId leaf) {
-    return !tools_.exchange.mine(forest_.nodes[leaf].surface);
-  };
-  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), is_others), leaves.end());
+  const std::vector<NodeId> leaves = new_leaves(Whose::own);
   state_.direct.of_leaf.resize(forest_.nodes.size());
   take_own_points(gathered<NodeId>(tools_.team, leaves.size(),
                                    [&](size_t k, std::vector<NodeId>& partly_sealed) {

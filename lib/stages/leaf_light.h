@@ -34,7 +34,8 @@ class LeafLight {
 
  private:
   struct Shares;
-  std::vector<NodeId> new_leaves();
+  enum class Whose { own, all };
+  std::vector<NodeId> new_leaves(Whose whose);
   void forget_divided();
   bool take_corners(NodeId leaf);
   void take_own_points(const std::vector<NodeId>& leaves);

@@ -42,7 +42,7 @@ std::vector<OrientedPoint> LeafLight::points_over(NodeId leaf, double large) con
 }
 
 bool LeafLight::name_means(const DirectLight& light, double large) {
-  const std::vector<NodeId> leaves = new_leaves();
+  const std::vector<NodeId> leaves = new_leaves(Whose::all);
   const size_t count = leaves.size();
   for (size_t first = 0; first < count; first += leaves_of_a_batch) {
     const size_t some = std::min(leaves_of_a_batch, count - first);

@@ -302,7 +302,7 @@ void RefiningRound::finish() {
   state_.links.resize(state_.forest.nodes.size());
   state_.links.replace(std::move(new_links_), &tools_.team);
   passes_.clear();
-  pull_exposure(state_.forest);
+  pull_exposure(state_, tools_.team);
   measure_clusters(state_.forest);
   // What turned out to be sealed all over receives nothing.
   std::vector<LinkTable::NewRun> sealed;

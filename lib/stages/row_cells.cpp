@@ -115,14 +115,15 @@ std::vector<uint8_t> RowMesh::uneven_cells(const Brightness& brightness) {
   if (!names_) names_ = std::make_unique<CornerNames>(forest_);
   const std::vector<float> contrast =
       contrast_of_cells(state_, brightness, *names_, tools_.team, tools_.exchange);
-  std::vector<uint8_t> divide(state_.cells.size());
+  std::vector<uint8_t> divide(state_.cells.size(), 0);
   for_each_thing(tools_.team, divide.size(), [&](size_t k) {
+    if (!is_mine(state_.cells[k])) return;
     const Node& node = forest_.nodes[state_.cells[k]];
     const double area = forest_.area(node);
     divide[k] = area >= 4 * settings_.least_cell_area && node.level < max_level &&
                 contrast[k] * std::sqrt(area / settings_.cell_area) > settings_.contrast;
   });
-  tools_.exchange.share(divide, [&](size_t k) { return forest_.nodes[state_.cells[k]].surface; });
+  tools_.exchange.share_marks(divide);
   return divide;
 }
 
@@ -147,29 +148,41 @@ void RowMesh::divide_leaves(const std::vector<NodeId>& leaves) {
   corners_.want(wanted);
 }
 
+// By their children, all in ascending order.
+void RowMesh::replace_cells(const std::vector<NodeId>& divided, std::vector<NodeId>& new_cells) {
+  enum : uint8_t { no_cell, old_cell, new_cell };
+  std::vector<uint8_t> kind(forest_.nodes.size(), no_cell);
+  for_each_thing(tools_.team, state_.cells.size(),
+                 [&](size_t k) { kind[static_cast<size_t>(state_.cells[k])] = old_cell; });
+  for_each_thing(tools_.team, divided.size(), [&](size_t k) {
+    kind[static_cast<size_t>(divided[k])] = no_cell;
+    std::fill_n(&kind[static_cast<size_t>(forest_.nodes[divided[k]].first_child)], 4, new_cell);
+  });
+  const auto all_from = [&](uint8_t least) {
+    return gathered<NodeId>(tools_.team, kind.size(), [&](size_t k, std::vector<NodeId>& some) {
+      if (kind[k] >= least) some.push_back(static_cast<NodeId>(k));
+    });
+  };
+  state_.cells = all_from(old_cell);
+  new_cells = all_from(new_cell);
+}
+
 bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells) {
   const std::vector<uint8_t> divide = uneven_cells(brightness);
-  std::vector<NodeId> divided, leaves, cells;
+  std::vector<NodeId> divided, leaves;
   for (size_t k = 0; k < divide.size(); ++k) {
+    if (!divide[k]) continue;
     const NodeId cell = state_.cells[k];
-    (divide[k] ? divided : cells).push_back(cell);
-    if (divide[k] && forest_.is_leaf(cell)) leaves.push_back(cell);
+    divided.push_back(cell);
+    if (forest_.is_leaf(cell)) leaves.push_back(cell);
   }
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
   divide_leaves(leaves);
   if (!sample_corners()) return false;
   if (!measure_exposure(end)) return false;
-  new_cells.clear();
+  replace_cells(divided, new_cells);
   std::vector<LinkTable::NewRun> dropped;
-  for (NodeId cell : divided) {
-    dropped.push_back({cell, {}});
-    for (int child = 0; child < 4; ++child)
-      new_cells.push_back(forest_.nodes[cell].first_child + child);
-  }
-  std::sort(new_cells.begin(), new_cells.end());
-  std::vector<NodeId> all(cells.size() + new_cells.size());
-  std::merge(cells.begin(), cells.end(), new_cells.begin(), new_cells.end(), all.begin());
-  state_.cells.swap(all);
+  for (NodeId cell : divided) dropped.push_back({cell, {}});
   state_.links.replace(std::move(dropped), &tools_.team);
   return name_leaves();
 }

@@ -85,9 +85,8 @@ void RowMesh::guess_share(const std::vector<NodeId>& cells,
   corners_.expect(expected);
   const size_t step = cells.size() / most_looked_at + 1;
   std::vector<double> shadow_rays((cells.size() + step - 1) / step);
-  for_each_thing(tools_.team, shadow_rays.size(), [&](size_t k) {
-    shadow_rays[k] = light_.rays_at(points[3 * step * k]);
-  });
+  for_each_thing(tools_.team, shadow_rays.size(),
+                 [&](size_t k) { shadow_rays[k] = light_.rays_at(points[3 * step * k]); });
   double shadow = 0, rows = 0;
   for (size_t k = 0; k < shadow_rays.size(); ++k) {
     shadow += points_of(cells[step * k]) * (work_of_a_point + shadow_rays[k]);
@@ -126,7 +125,7 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
     }
     kept[k] = low >= 0 && weighed((high - low) / 2, forest_.area(node)) <= 1;
   });
-  tools_.exchange.share(kept, [&](size_t k) { return forest_.nodes[open[k]].surface; });
+  tools_.exchange.share_marks(kept);
   std::vector<NodeId> rest;
   for (size_t k = 0; k < open.size(); ++k) {
     if (kept[k])
@@ -164,12 +163,15 @@ double RowMesh::points_after(double of_level, double of_level_before) const {
 bool RowMesh::refine(std::vector<NodeId> open) {
   double of_level_before = 0;
   while (!open.empty()) {
-    const std::vector<NodeId> asked =
-        gathered<NodeId>(tools_.team, open.size(), [&](size_t k, std::vector<NodeId>& some) {
-          if (is_mine(open[k]) && may_divide(open[k])) some.push_back(open[k]);
+    const std::vector<size_t> asked =
+        gathered<size_t>(tools_.team, open.size(), [&](size_t k, std::vector<size_t>& some) {
+          if (is_mine(open[k]) && may_divide(open[k])) some.push_back(k);
         });
     const int64_t asked_before = corners_.asked();
-    corners_.want(points_of_own(asked, PointsOf::middles_of_edges));
+    std::vector<ElementPoints> middles;
+    middles.reserve(asked.size());
+    for (size_t k : asked) middles.push_back({open[k], PointsOf::middles_of_edges});
+    corners_.want(middles);
     const double of_level = static_cast<double>(corners_.asked() - asked_before);
     corners_.expect(points_after(of_level, of_level_before));
     of_level_before = of_level;
@@ -191,17 +193,15 @@ bool RowMesh::refine(std::vector<NodeId> open) {
   return true;
 }
 
-// Of each open element. asked: those of them whose middles have been asked for, in order.
+// Of each open element. asked: of these, which middles have been asked for.
 std::vector<uint8_t> RowMesh::fate_of(const std::vector<NodeId>& open,
-                                      const std::vector<NodeId>& asked) const {
-  std::vector<uint8_t> of_asked(asked.size()), fate(open.size(), stays);
+                                      const std::vector<size_t>& asked) const {
+  std::vector<uint8_t> fate(open.size(), stays);
   for_each_thing(tools_.team, asked.size(), [&](size_t k) {
-    const double error = deviation(asked[k]);
-    of_asked[k] = error > 1 ? goes_on : error > worth_keeping ? is_divided : stays;
+    const double error = deviation(open[asked[k]]);
+    fate[asked[k]] = error > 1 ? goes_on : error > worth_keeping ? is_divided : stays;
   });
-  for (size_t k = 0, next = 0; k < open.size() && next < asked.size(); ++k)
-    if (open[k] == asked[next]) fate[k] = of_asked[next++];
-  tools_.exchange.share(fate, [&](size_t k) { return forest_.nodes[open[k]].surface; });
+  tools_.exchange.share_marks(fate);
   return fate;
 }
 

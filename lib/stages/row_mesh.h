@@ -48,11 +48,12 @@ class RowMesh {
   bool refine(std::vector<NodeId> open);
   double points_after(double of_level, double of_level_before) const;
   std::vector<uint8_t> fate_of(const std::vector<NodeId>& open,
-                               const std::vector<NodeId>& asked) const;
+                               const std::vector<size_t>& asked) const;
   std::vector<ElementPoints> points_of_own(const std::vector<NodeId>& elements,
                                            PointsOf which) const;
   std::vector<uint8_t> uneven_cells(const Brightness& brightness);
   void divide_leaves(const std::vector<NodeId>& leaves);
+  void replace_cells(const std::vector<NodeId>& divided, std::vector<NodeId>& new_cells);
   bool may_divide(NodeId id) const;
   double light_at(int32_t surface, LatticePoint corner) const;
   double deviation(NodeId id) const;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "links/element.h"
+#include "machine/pieces.h"
 #include "stages/element_rays.h"
 #include "stages/exchange.h"
 #include "stages/leaf_light.h"
@@ -116,23 +117,24 @@ class RowTracer {
 // The cells that this process gives rows, in tasks of about as many rays, and these in batches.
 class OwnRows {
  public:
-  OwnRows(const State& state, const Exchange& exchange, const std::vector<NodeId>& cells,
-          const std::vector<int>& rays_of_cell) {
+  OwnRows(const State& state, const StageTools& tools, const std::vector<NodeId>& cells,
+          const std::vector<int>& rays_of_cell)
+      : cells_(gathered<size_t>(tools.team, cells.size(), [&](size_t k, std::vector<size_t>& some) {
+          const Node& node = state.forest.nodes[cells[k]];
+          if (tools.exchange.mine(node.surface) && node.exposed > 0) some.push_back(k);
+        })) {
     int64_t rays = rays_of_a_task;
     size_t in_batch = rows_of_a_batch;
-    for (size_t k = 0; k < cells.size(); ++k) {
-      const Node& node = state.forest.nodes[cells[k]];
-      if (!exchange.mine(node.surface) || !(node.exposed > 0)) continue;
+    for (size_t row = 0; row < cells_.size(); ++row) {
       if (rays >= rays_of_a_task) {
         if (in_batch >= rows_of_a_batch) {
           batches_.push_back(first_.size());
           in_batch = 0;
         }
-        first_.push_back(cells_.size());
+        first_.push_back(row);
         rays = 0;
       }
-      cells_.push_back(k);
-      rays += rays_of_cell[k];
+      rays += rays_of_cell[cells_[row]];
       ++in_batch;
     }
     batches_.push_back(first_.size());
@@ -165,7 +167,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
     return source >= 0 && static_cast<size_t>(source) < forest.nodes.size() &&
            !Forest::is_cluster(forest.nodes[source]);
   };
-  const OwnRows own(state, tools.exchange, cells, rays_of_cell);
+  const OwnRows own(state, tools, cells, rays_of_cell);
   state.journal.next_pass();
   bool going_on = own.batches() > 0 || tools.progress(1);  // who has none may stop, too
   for (size_t batch = 0; batch < own.batches() && going_on; ++batch) {

@@ -180,7 +180,7 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
   StageMemory memory(state);
   RowMesh mesh(state, tools, settings, light, grid, expected, memory);
   if (!mesh.build()) return Outcome::stopped;
-  pull_exposure(state.forest);
+  pull_exposure(state, tools.team);
   const double meshed = mesh.share_of_work();
   const double piloted = meshed + pilot_work * (1 - meshed);
 
@@ -210,7 +210,7 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
     rays = rays_by_variance(state, tools, settings, seen, spots);
     if (round + 1 == pilot_rounds) break;
     if (!mesh.divide_cells(seen, cells)) return Outcome::stopped;
-    pull_exposure(state.forest);
+    pull_exposure(state, tools.team);
   }
   BrightSpots spots(state, tools, settings, seen, emitters);
   const StageTools last = tools.of_part(piloted, 1);

@@ -92,6 +92,15 @@ void visit_leaves(const Forest& forest, NodeId id, F&& f) {
   for (int child = 0; child < 4; ++child) visit_leaves(forest, node.first_child + child, f);
 }
 
+float pull_exposure_below(std::vector<Node>& nodes, NodeId id) {
+  Node& node = nodes[id];
+  if (node.first_child < 0) return node.exposed;
+  float sum = 0;
+  for (int child = 0; child < 4; ++child)
+    sum += pull_exposure_below(nodes, node.first_child + child);
+  return node.exposed = sum / 4;
+}
+
 float brightness_of(const float* radiosity, const std::vector<double>& unit) {
   double largest = 0;
   for (size_t b = 0; b < unit.size(); ++b) largest = std::max(largest, radiosity[b] * unit[b]);
@@ -139,18 +148,15 @@ std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange
   return transported;
 }
 
-void pull_exposure(Forest& forest) {
-  for (size_t k = forest.nodes.size(); k-- > 0;) {
-    Node& node = forest.nodes[k];
-    if (node.first_child < 0) continue;
-    const Node* child = &forest.nodes[node.first_child];
-    node.exposed = (child[0].exposed + child[1].exposed + child[2].exposed + child[3].exposed) / 4;
-  }
+void pull_exposure(State& state, ThreadTeam& team) {
+  for_each_root(state, team, [&](NodeId root) { pull_exposure_below(state.forest.nodes, root); });
 }
 
 void reset_to_emission(State& state, ThreadTeam& team) {
   const Scene& scene = *state.forest.scene;
   const size_t bands = static_cast<size_t>(state.bands);
+  if (state.irradiance.size() != state.forest.nodes.size() * bands)  // nothing is to be kept
+    for (auto* light : {&state.irradiance, &state.radiosity}) *light = std::vector<float>();
   state.resize_light();
   for_each_thing(team, state.forest.nodes.size(), [&](size_t k) {
     std::fill_n(&state.irradiance[k * bands], bands, 0.0f);

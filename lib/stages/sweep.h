@@ -21,7 +21,7 @@ std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange
 
 // New elements know better than their parents what is sealed: these take the mean of their
 // children.
-void pull_exposure(Forest& forest);
+void pull_exposure(State& state, ThreadTeam& team);
 
 // B = E, H = 0 everywhere: where every solve starts.
 void reset_to_emission(State& state, ThreadTeam& team);
