@@ -1,29 +1,19 @@
 // Who shares processors with whom: processes of one node whose sets of processors overlap.
-#include "machine/crowd.h"
-
 #include <vector>
 
+#include "machine/crowd.h"
 #include "support/check.h"
-#include "support/thread_ranks.h"
+#include "support/node_ranks.h"
 
 namespace {
 
 using hrad::Topology;
-using hrad_test::CommThreads;
+using hrad_test::CommOnNodes;
 using hrad_test::Hub;
 
 struct Place {
   int node;
   std::vector<std::vector<int>> cores;
-};
-
-class CommOnNodes final : public CommThreads {
- public:
-  CommOnNodes(Hub& hub, int rank, int node) : CommThreads(hub, rank), node_(node) {}
-  int node() const override { return node_; }
-
- private:
-  const int node_;
 };
 
 std::vector<int> sharers(const std::vector<Place>& places) {
@@ -70,10 +60,8 @@ void some_overlap() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(alone),
-      HRAD_TEST(all_on_the_same),
-      HRAD_TEST(each_on_its_own),
-      HRAD_TEST(nodes_share_nothing),
+      HRAD_TEST(alone),           HRAD_TEST(all_on_the_same),
+      HRAD_TEST(each_on_its_own), HRAD_TEST(nodes_share_nothing),
       HRAD_TEST(some_overlap),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
