@@ -36,7 +36,7 @@ int64_t links_of_others(const State& state, const Exchange& exchange) {
 }
 
 // Which steps the stages make; another number for others, whose results mean something else.
-constexpr uint64_t steps_of_stages = 3;
+constexpr uint64_t steps_of_stages = 4;
 
 // What a ray engine takes for a patch while it is built.
 constexpr int64_t kEngineBytesOfPatch = 150;

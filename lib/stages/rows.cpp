@@ -11,6 +11,7 @@
 #include "stages/exchange.h"
 #include "stages/gather.h"
 #include "stages/row_mesh.h"
+#include "stages/row_rays.h"
 #include "stages/row_tracer.h"
 #include "stages/sweep.h"
 
@@ -18,17 +19,11 @@ namespace hrad {
 namespace {
 
 constexpr int pilot_rounds = 3;
-// Pilot rows tell where light varies, not how much there is.
-constexpr int pilot_share = 4;
 // Bounces after which it is known well enough where that is.
 constexpr int pilot_sweeps = 6;
 
 // Of all work on rows, about.
 constexpr double pilot_work = 0.4;
-
-// Deviation of what a ray brings, in units of the mean irradiance, for which the ordinary number of
-// rays is meant, and how many times that there may be.
-constexpr double ordinary_deviation = 0.15, most_more_rays = 64;
 
 // Where a few bright spots make the root mean square, everything else would seem even: the unit is
 // no larger than twice the mean.
@@ -61,61 +56,6 @@ Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
   Brightness light = measure_brightness(state, tools.team, tools.exchange);
   stay_near_the_mean(state, light);
   return light;
-}
-
-std::vector<int> rays_by_area(const State& state, const StageTools& tools,
-                              const RowSettings& settings, const std::vector<NodeId>& cells) {
-  std::vector<int> rays(cells.size());
-  for_each_thing(tools.team, cells.size(), [&](size_t k) {
-    rays[k] = settings.rays_of(state.forest.area(state.forest.nodes[cells[k]]));
-  });
-  return rays;
-}
-
-// Variance of what one ray of a row brings.
-double variance_of(const State& state, NodeId cell, const Brightness& light,
-                   const BrightSpots& spots) {
-  double mean = 0, square = 0;
-  for (const Link& link : state.links[cell].links()) {
-    if (spots.sends_to(link.source, cell)) continue;
-    const double weight = link.weight, brightness = light.of_node[link.source];
-    mean += weight * brightness;
-    square += weight * brightness * brightness;
-  }
-  return std::max(0.0, square - mean * mean);
-}
-
-// More rays for the cells that see bright spots, in proportion to the deviation of single rays.
-// What the few pilot rays of a cell missed those of the others on its surface may have met.
-// Others' cells have no rows here, and are left out.
-std::vector<int> rays_by_variance(const State& state, const StageTools& tools,
-                                  const RowSettings& settings, const Brightness& light,
-                                  const BrightSpots& spots) {
-  const Forest& forest = state.forest;
-  std::vector<double> own(state.cells.size(), 0.0);
-  std::vector<double> sum(static_cast<size_t>(forest.surface_count()), 0.0), area = sum;
-  const auto is_mine = [&](size_t k) {
-    return tools.exchange.mine(forest.nodes[state.cells[k]].surface);
-  };
-  for_each_thing(tools.team, own.size(), [&](size_t k) {
-    if (is_mine(k)) own[k] = variance_of(state, state.cells[k], light, spots);
-  });
-  for (size_t k = 0; k < own.size(); ++k) {
-    if (!is_mine(k)) continue;
-    const Node& node = forest.nodes[state.cells[k]];
-    sum[node.surface] += forest.area(node) * own[k];
-    area[node.surface] += forest.area(node);
-  }
-  std::vector<int> rays(own.size(), 0);
-  for_each_thing(tools.team, own.size(), [&](size_t k) {
-    if (!is_mine(k)) return;
-    const Node& node = forest.nodes[state.cells[k]];
-    const double mean = sum[node.surface] / area[node.surface];
-    const double share = std::sqrt((own[k] + mean) / 2) / ordinary_deviation;
-    rays[k] = static_cast<int>(settings.rays_of(forest.area(node)) *
-                               std::max(1.0, std::min(most_more_rays, share)));
-  });
-  return rays;
 }
 
 // Of the light that an enclosure would have: with less than this, as where lamps shine out of the
@@ -190,7 +130,6 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
   pilot.rays_of_cell = settings.rays_of_cell / pilot_share;
   pilot.seed = mix(settings.seed, 0x70696c6f74u);
   std::vector<NodeId> cells = state.cells;
-  std::vector<int> rays;
   Brightness seen = light_of_pilot_rows(state, tools);
   for (int round = 0; !cells.empty(); ++round) {
     BrightSpots spots(state, tools, pilot, seen, emitters);
@@ -207,14 +146,14 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
         return Outcome::too_dark;
       }
     }
-    rays = rays_by_variance(state, tools, settings, seen, spots);
     if (round + 1 == pilot_rounds) break;
     if (!mesh.divide_cells(seen, cells)) return Outcome::stopped;
     pull_exposure(state, tools.team);
   }
   BrightSpots spots(state, tools, settings, seen, emitters);
   const StageTools last = tools.of_part(piloted, 1);
-  if (!trace_cells(state, last, settings, grid, spots, state.cells, rays, memory))
+  if (!trace_cells(state, last, settings, grid, spots, state.cells,
+                   rays_by_variance(state, tools, settings, seen, spots), memory))
     return Outcome::stopped;
   mesh.keep_what_is_named();
   reset_to_emission(state, tools.team);
@@ -224,16 +163,6 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
 }
 
 }  // namespace
-
-int RowSettings::rays_of(double area) const {
-  return std::max(
-      least_rays,
-      static_cast<int>(std::ceil(rays_of_cell * std::sqrt(std::min(1.0, area / cell_area)))));
-}
-
-double RowSettings::power_of_spot_rays() const {
-  return ordinary_deviation * ordinary_deviation / rays_of_cell;
-}
 
 bool link_rows(State& state, const StageTools& tools, const RowSettings& settings) {
   std::vector<float> exposed;
