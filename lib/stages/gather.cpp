@@ -38,8 +38,9 @@ void add_runs(const State& state, const LinkTable::Block& block, const OwnRuns::
     if (kind != wanted) continue;
     uint32_t first = begin > 0 ? block.ends[begin - 1] : 0;
     if (by_kernel) {
-      sweep_kernels()[0]->gather(block.links.data(), first, &block.ends[begin], receivers + begin,
-                                 run - begin, state.radiosity.data(), state.bands, out);
+      sweep_kernels()[0]->gather(block.links.data(), block.ends.back(), first, &block.ends[begin],
+                                 receivers + begin, run - begin, state.radiosity.data(),
+                                 state.bands, out);
       continue;
     }
     for (size_t k = begin; k < run; first = block.ends[k++]) {

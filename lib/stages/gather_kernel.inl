@@ -17,9 +17,8 @@ inline void add_run(const Link* link, const Link* last, const float* sources, Fo
 }
 
 template <int Bands>
-inline void gather_runs_of(const Link* links, uint32_t first, const uint32_t* ends,
+inline void gather_runs_of(const Link* links, uint32_t all, uint32_t first, const uint32_t* ends,
                            const uint16_t* receivers, size_t runs, const float* sources, float* out) {
-  const uint32_t all = runs > 0 ? ends[runs - 1] : 0;
   for (size_t k = 0; k < runs; ++k) {
     FourDoubles sum = {};
     if (all - ends[k] >= links_ahead)
@@ -32,9 +31,9 @@ inline void gather_runs_of(const Link* links, uint32_t first, const uint32_t* en
   }
 }
 
-inline void gather_runs(const Link* links, uint32_t first, const uint32_t* ends,
+inline void gather_runs(const Link* links, uint32_t all, uint32_t first, const uint32_t* ends,
                         const uint16_t* receivers, size_t runs, const float* sources, int bands, float* out) {
-  if (bands == 2) return gather_runs_of<2>(links, first, ends, receivers, runs, sources, out);
-  if (bands == 3) return gather_runs_of<3>(links, first, ends, receivers, runs, sources, out);
-  gather_runs_of<4>(links, first, ends, receivers, runs, sources, out);
+  if (bands == 2) return gather_runs_of<2>(links, all, first, ends, receivers, runs, sources, out);
+  if (bands == 3) return gather_runs_of<3>(links, all, first, ends, receivers, runs, sources, out);
+  gather_runs_of<4>(links, all, first, ends, receivers, runs, sources, out);
 }

@@ -125,7 +125,7 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
     }
     kept[k] = low >= 0 && weighed((high - low) / 2, forest_.area(node)) <= 1;
   });
-  tools_.exchange.share_marks(kept);
+  tools_.exchange.share(kept, [&](size_t k) { return forest_.nodes[open[k]].surface; });
   std::vector<NodeId> rest;
   for (size_t k = 0; k < open.size(); ++k) {
     if (kept[k])

@@ -130,6 +130,7 @@ float spread_below(const State& state, NodeId id, const std::vector<double>& uni
 }  // namespace
 
 std::vector<double> sweep(State& state, ThreadTeam& team, Exchange& exchange, const OwnRuns& runs) {
+  if (runs.all()) exchange.finish_update(state, team);  // they may wait
   gather_what_is_here(state, team, runs, exchange);
   exchange.finish_update(state, team);
   gather_what_has_come(state, team, runs);

@@ -14,10 +14,11 @@ namespace hrad {
 // The values of a node are taken so many at a time.
 constexpr int most_lanes = 4;
 
-// For two to four bands. The first run begins at link `first`, run k ends at ends[k], where the
-// next one begins. sources: bands values per node, and most_lanes more that don't count. Adds to
-// the bands values of `out` of receivers[k] a sum in double precision, in the order of the run.
-using GatherRuns = void (*)(const Link* links, uint32_t first, const uint32_t* ends,
+// For two to four bands, of `all` links some runs. The first run begins at link `first`, run k ends
+// at ends[k], where the next one begins. sources: bands values per node, and most_lanes more that
+// don't count. Adds to the bands values of `out` of receivers[k] a sum in double precision, in the
+// order of the run.
+using GatherRuns = void (*)(const Link* links, uint32_t all, uint32_t first, const uint32_t* ends,
                             const uint16_t* receivers, size_t runs, const float* sources, int bands,
                             float* out);
 

@@ -213,14 +213,14 @@ void kernels_agree_to_the_bit() {
     for (uint64_t k = 0; k < nodes * bands; ++k)
       sources.push_back(static_cast<float>(unit_interval(mix(k, 4))));
     sources.resize(sources.size() + most_lanes);
-    sweep_kernels_sse2.gather(links.data(), 0, ends.data(), with_links.data(), ends.size(),
-                              sources.data(), bands, narrow.data());
+    sweep_kernels_sse2.gather(links.data(), ends.back(), 0, ends.data(), with_links.data(),
+                              ends.size(), sources.data(), bands, narrow.data());
     for (size_t k = 0; k < receivers; ++k)
       for (int b = 0; b < bands; ++b) CHECK((narrow[k * bands + b] > 1) == (k % 5 != 0));
     for (const SweepKernels* kernels : sweep_kernels()) {
       std::vector<float> other(narrow.size(), 1.0f);
-      kernels->gather(links.data(), 0, ends.data(), with_links.data(), ends.size(), sources.data(),
-                      bands, other.data());
+      kernels->gather(links.data(), ends.back(), 0, ends.data(), with_links.data(), ends.size(),
+                      sources.data(), bands, other.data());
       CHECK(other == narrow);
     }
   }
