@@ -151,8 +151,8 @@ typedef void (*hrad_log_function)(int32_t level, const char *message, void *user
 /* [L] From now on every message of level <= level goes to function(level, message, user), called on
  * the thread that called the solver; function NULL turns messages off (the default). Warnings are of
  * doubtful scenes, of an MPI that was started for one thread, and of processes whose threads would
- * fight for the same processors, with what helps; information is which threads each process starts. Rank 0 is told of all processes and nodes,
- * the others of warnings about their own.
+ * fight for the same processors, with what helps; information is which threads each process starts.
+ * Rank 0 is told of all processes and nodes, the others of warnings about their own.
  * Errors: ARGUMENT for a NULL solver or a level outside 0..3. */
 HRAD_API hrad_status hrad_set_log(hrad_solver *solver, hrad_log_function function, void *user,
                                   int32_t level);

@@ -6,10 +6,8 @@
 #include <cmath>
 
 #include "base/hash.h"
-#include "machine/pieces.h"
 #include "stages/bright_spots.h"
 #include "stages/exchange.h"
-#include "stages/gather.h"
 #include "stages/row_mesh.h"
 #include "stages/row_rays.h"
 #include "stages/row_tracer.h"

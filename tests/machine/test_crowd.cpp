@@ -8,8 +8,6 @@
 namespace {
 
 using hrad::Topology;
-using hrad_test::CommOnNodes;
-using hrad_test::Hub;
 
 struct Place {
   int node;
@@ -17,17 +15,12 @@ struct Place {
 };
 
 std::vector<int> sharers(const std::vector<Place>& places) {
-  Hub hub(static_cast<int>(places.size()));
   std::vector<int> result(places.size(), 0);
-  std::vector<std::thread> threads;
-  for (size_t k = 0; k < places.size(); ++k)
-    threads.emplace_back([&, k] {
-      CommOnNodes comm(hub, static_cast<int>(k), places[k].node);
-      Topology topology;
-      topology.core_contexts = places[k].cores;
-      result[k] = hrad::sharers_of_processors(comm, topology);
-    });
-  for (std::thread& thread : threads) thread.join();
+  hrad_test::on_nodes(hrad_test::nodes_of(places), [&](hrad::Comm& comm, size_t rank) {
+    Topology topology;
+    topology.core_contexts = places[rank].cores;
+    result[rank] = hrad::sharers_of_processors(comm, topology);
+  });
   return result;
 }
 

@@ -1,7 +1,6 @@
 // Who is told of which threads: rank 0 of every process and of every crowded node, the others of a
 // crowd on their own node.
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "solver/team_report.h"
@@ -27,21 +26,16 @@ void keep(int32_t level, const char* message, void* user) {
 }
 
 std::vector<Said> said_on(const std::vector<Place>& places, Log::Level level = Log::info) {
-  Hub hub(static_cast<int>(places.size()));
   std::vector<Said> said(places.size());
-  std::vector<std::thread> threads;
-  for (size_t k = 0; k < places.size(); ++k)
-    threads.emplace_back([&, k] {
-      CommOnNodes comm(hub, static_cast<int>(k), places[k].node);
-      Topology topology;
-      topology.usable_contexts = places[k].processors;
-      PoolPlan plan;
-      plan.threads = places[k].threads;
-      plan.sharers = places[k].sharers;
-      plan.reason = "reason " + std::to_string(k);
-      report_teams(comm, topology, plan, {keep, &said[k], level});
-    });
-  for (std::thread& thread : threads) thread.join();
+  on_nodes(nodes_of(places), [&](Comm& comm, size_t rank) {
+    Topology topology;
+    topology.usable_contexts = places[rank].processors;
+    PoolPlan plan;
+    plan.threads = places[rank].threads;
+    plan.sharers = places[rank].sharers;
+    plan.reason = "reason " + std::to_string(rank);
+    report_teams(comm, topology, plan, {keep, &said[rank], level});
+  });
   return said;
 }
 
