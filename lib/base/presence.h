@@ -4,12 +4,26 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace hrad {
 
 class Presence {
  public:
+  static constexpr size_t of_a_word = 64;
+
+  Presence() = default;
+  // words: of so many things, a bit for each, the lowest first; those beyond are 0.
+  Presence(size_t size, std::vector<uint64_t> words) : size_(size), bits_(std::move(words)) {
+    before_.reserve(bits_.size());
+    uint32_t sum = 0;
+    for (uint64_t word : bits_) {
+      before_.push_back(sum);
+      sum += static_cast<uint32_t>(ones(word));
+    }
+  }
+
   size_t size() const { return size_; }
   // How many have something.
   size_t count() const { return bits_.empty() ? 0 : before_.back() + ones(bits_.back()); }
@@ -48,7 +62,6 @@ class Presence {
   }
 
  private:
-  static constexpr size_t of_a_word = 64;
   static uint64_t bit(size_t k) { return uint64_t{1} << k % of_a_word; }
   static size_t ones(uint64_t word) { return static_cast<size_t>(__builtin_popcountll(word)); }
 

@@ -121,6 +121,20 @@ void unite(Comm& comm, std::vector<T>& values) {
   }
 }
 
+// Collective. Every process's values that are to go to this one, owner_of(value).
+template <class T, class OwnerOf>
+void send_to_owners(Comm& comm, std::vector<T>& values, const OwnerOf& owner_of) {
+  if (comm.alone()) return;
+  std::vector<Bytes> to(static_cast<size_t>(comm.size()));
+  for (const T& value : values) put(to[static_cast<size_t>(owner_of(value))], &value, 1);
+  values.clear();
+  for (const Bytes& bytes : comm.exchange(std::move(to))) {
+    const size_t before = values.size();
+    values.resize(before + bytes.size() / sizeof(T));
+    Taker(bytes).take(values.data() + before, values.size() - before);
+  }
+}
+
 // Of tasks that belong to nobody each process takes its turn.
 inline bool is_my_turn(const Comm& comm, size_t task) {
   return task % static_cast<size_t>(comm.size()) == static_cast<size_t>(comm.rank());

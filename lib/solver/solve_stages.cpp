@@ -191,7 +191,7 @@ bool Solver::Run::sweep(int round) {
   }
   seconds_of_sweeps_ = clock_.seconds_of_stage();
   exchange_.finish_update(state_, *solution_.team);
-  exchange_.share_light(state_);
+  exchange_.share_light(state_, *solution_.team);
   solver_.stats_.seconds_iterative +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   solution_.sweeping = !solution_.converged && !out_of_sweeps();

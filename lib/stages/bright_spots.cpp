@@ -44,7 +44,8 @@ BrightSpots::BrightSpots(const State& state, const StageTools& tools, const RowS
     light[k] =
         std::max(brightness.of_node[known], brightness.of_node[forest.nodes[leaves[k]].surface]);
   });
-  tools.exchange.share(light, [&](size_t k) { return forest.nodes[leaves[k]].surface; });
+  tools.exchange.share(
+      light, [&](size_t k) { return forest.nodes[leaves[k]].surface; }, tools.team);
   struct Sums {
     double rest = 0, area = 0;
   };
@@ -198,7 +199,8 @@ bool BrightSpots::trace(State& state, const StageTools& tools, const std::vector
       arrivals.push_back({cell_of_[cell], {own[k], static_cast<float>(std::min(1.0, weight))}});
     }
   }
-  tools.exchange.unite(arrivals);
+  tools.exchange.send_to_owners(
+      arrivals, [&](const Arrival& arrival) { return forest.nodes[cells[arrival.cell]].surface; });
   deal_out(arrivals, cells.size());
   return true;
 }

@@ -28,7 +28,7 @@ class BrightSpots {
              StageMemory& memory);
   // About how many rays that are.
   double rays() const;
-  // What arrived at the k-th of these cells, by source.
+  // What arrived at the k-th of these cells, which is this process's own, by source.
   Span<const Link> links_to(size_t k) const {
     if (first_.empty()) return {};
     return {links_.data() + first_[k], first_[k + 1] - first_[k]};

@@ -217,7 +217,7 @@ OrientedPoint CornerSampler::point_of(const Wanted& wanted) const {
 void CornerSampler::keep_what_is_named() {
   number_ = CornerNumbers();
   wanted_ = std::vector<Wanted>();
-  state_.direct.of_leaf.settle();
+  state_.direct.of_leaf.settle(tools_.team);
   const Emitters& emitters = grid_.emitters();
   number_points_by_leaves(
       state_.direct, value_.size(),

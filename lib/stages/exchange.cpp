@@ -118,43 +118,45 @@ void Exchange::add_up(std::vector<ExactSum>& sums) {
   for (size_t k = 0; k < sums.size(); ++k) sums[k] = ExactSum(digits[k]);
 }
 
-void Exchange::share_roots(State& state) {
-  if (alone()) return;
-  const size_t bands = static_cast<size_t>(state.bands);
-  int64_t sent = 0;
-  hrad::share(
-      comm_, owner_.size(), [&](size_t root) { return owner_[root]; },
-      [&](size_t root, Bytes& bytes) {
-        const size_t before = bytes.size();
-        put(bytes, &state.radiosity[root * bands], bands);
-        put(bytes, &state.irradiance[root * bands], bands);
-        sent += static_cast<int64_t>(bytes.size() - before);
+namespace {
+
+// Radiosity and irradiance of some nodes, node_of(k), as rows of bytes.
+template <class OwnerOf, class NodeOf>
+size_t share_light_of(Comm& comm, ThreadTeam& team, State& state, size_t count,
+                      const OwnerOf& owner_of, const NodeOf& node_of) {
+  const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
+  return share_rows(
+      comm, team, count, 2 * bytes, owner_of,
+      [&](size_t k, char* to) {
+        const size_t at = node_of(k) * bands;
+        std::memcpy(to, &state.radiosity[at], bytes);
+        std::memcpy(to + bytes, &state.irradiance[at], bytes);
       },
-      [&](size_t root, Taker& taker) {
-        taker.take(&state.radiosity[root * bands], bands);
-        taker.take(&state.irradiance[root * bands], bands);
+      [&](size_t k, const char* from) {
+        const size_t at = node_of(k) * bands;
+        std::memcpy(&state.radiosity[at], from, bytes);
+        std::memcpy(&state.irradiance[at], from + bytes, bytes);
       });
-  count_totals(sent);
 }
 
-void Exchange::share_light(State& state) const {
+}  // namespace
+
+void Exchange::share_roots(State& state, ThreadTeam& team) {
+  const size_t sent = share_light_of(
+      comm_, team, state, owner_.size(), [&](size_t root) { return owner_[root]; },
+      [](size_t root) { return root; });
+  count_totals(static_cast<int64_t>(sent));
+}
+
+void Exchange::share_light(State& state, ThreadTeam& team) const {
   if (alone()) return;
-  const size_t bands = static_cast<size_t>(state.bands);
-  std::vector<NodeId> elements;
-  for (size_t id = 0; id < state.forest.nodes.size(); ++id)
-    if (!Forest::is_cluster(state.forest.nodes[id])) elements.push_back(static_cast<NodeId>(id));
-  const auto both = [&](size_t k, const auto& pass) {
-    const size_t at = static_cast<size_t>(elements[k]) * bands;
-    pass(&state.radiosity[at]);
-    pass(&state.irradiance[at]);
-  };
-  hrad::share(
-      comm_, elements.size(),
-      [&](size_t k) { return owner_[state.forest.nodes[elements[k]].surface]; },
-      [&](size_t k, Bytes& bytes) {
-        both(k, [&](const float* values) { put(bytes, values, bands); });
-      },
-      [&](size_t k, Taker& taker) { both(k, [&](float* values) { taker.take(values, bands); }); });
+  const Forest& forest = state.forest;
+  // Between the roots and the elements there are clusters.
+  const size_t roots = owner_.size(), clusters = forest.clusters.clusters.size();
+  const auto node_of = [&](size_t k) { return k < roots ? k : k + clusters; };
+  share_light_of(
+      comm_, team, state, forest.nodes.size() - clusters,
+      [&](size_t k) { return owner_[forest.nodes[node_of(k)].surface]; }, node_of);
 }
 
 }  // namespace hrad

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/exact_sum.h"
+#include "machine/shared_rows.h"
 #include "machine/sharing.h"
 #include "stages/state.h"
 
@@ -47,6 +48,16 @@ class Exchange {
   void share(std::vector<T>& values, const SurfaceOf& surface_of) const {
     share_values(comm_, values, [&](size_t k) { return owner_[surface_of(k)]; });
   }
+  // The same, and rows of so many values, by a team.
+  template <class T, class SurfaceOf>
+  void share(std::vector<T>& values, const SurfaceOf& surface_of, ThreadTeam& team) const {
+    share_rows(values, 1, surface_of, team);
+  }
+  template <class T, class SurfaceOf>
+  void share_rows(std::vector<T>& rows, size_t values, const SurfaceOf& surface_of,
+                  ThreadTeam& team) const {
+    share_rows_of(comm_, team, rows, values, [&](size_t k) { return owner_[surface_of(k)]; });
+  }
   template <class T, class SurfaceOf>
   void share_lists(std::vector<std::vector<T>>& lists, const SurfaceOf& surface_of) const {
     hrad::share_lists(comm_, lists, [&](size_t k) { return owner_[surface_of(k)]; });
@@ -57,6 +68,11 @@ class Exchange {
   template <class T>
   void unite(std::vector<T>& values) const {
     hrad::unite(comm_, values);
+  }
+  // The same, but each gets those of its own surfaces alone, surface_of(value).
+  template <class T, class SurfaceOf>
+  void send_to_owners(std::vector<T>& values, const SurfaceOf& surface_of) const {
+    hrad::send_to_owners(comm_, values, [&](const T& value) { return owner_[surface_of(value)]; });
   }
   // values[k] where each took its turn.
   template <class T>
@@ -86,9 +102,9 @@ class Exchange {
   // What all processes have added up, a sum for each band (T).
   void add_up(std::vector<ExactSum>& sums);
   // Light on the roots, known to all (T).
-  void share_roots(State& state);
+  void share_roots(State& state, ThreadTeam& team);
   // Light on all elements, known to all.
-  void share_light(State& state) const;
+  void share_light(State& state, ThreadTeam& team) const;
   // The hierarchy has gone back to the roots: nothing is asked for any more.
   void forget();
   // Other owners of the surfaces from now on, to be asked anew.

@@ -20,25 +20,32 @@ void LeafPoints::name_own(size_t leaf, int32_t first, const Places& places) {
   own_of_.push_back({leaf, {first, places}});
 }
 
-void LeafPoints::settle() {
+void LeafPoints::settle(ThreadTeam& team) {
   const auto is_forgotten = [&](const auto& own) { return named_[own.first][0] < 0; };
   own_of_.erase(std::remove_if(own_of_.begin(), own_of_.end(), is_forgotten), own_of_.end());
   std::sort(own_of_.begin(), own_of_.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
-  const auto named = std::count_if(named_.begin(), named_.end(),
-                                   [](const Numbers& numbers) { return numbers[0] >= 0; });
+  constexpr size_t of_a_word = Presence::of_a_word;
+  const size_t nodes = named_.size(), words = pieces_of(nodes, of_a_word);
+  std::vector<uint64_t> owns(words, 0), shares(words, 0);
   LeafPoints settled;
   settled.own_.reserve(own_of_.size());
-  settled.shared_.reserve(static_cast<size_t>(named) - own_of_.size());
-  auto own = own_of_.begin();
-  for (size_t leaf = 0; leaf < named_.size(); ++leaf)
-    if (own != own_of_.end() && own->first == leaf) {
-      settled.append_own(own->second.first, own->second.place);
-      ++own;
-    } else {
-      settled.append(named_[leaf]);
-    }
-  settled.shrink_to_fit();
+  for (const auto& [leaf, own] : own_of_) {
+    owns[leaf / of_a_word] |= uint64_t{1} << leaf % of_a_word;
+    settled.own_.push_back(own);
+  }
+  for_each_thing(team, words, [&](size_t word) {
+    uint64_t any = 0;
+    for (size_t k = word * of_a_word; k < std::min(nodes, (word + 1) * of_a_word); ++k)
+      any |= uint64_t{named_[k][0] >= 0} << k % of_a_word;
+    shares[word] = any & ~owns[word];
+  });
+  settled.owns_ = Presence(nodes, std::move(owns));
+  settled.shares_ = Presence(nodes, std::move(shares));
+  settled.shared_.resize(settled.shares_.count());
+  for_each_thing(team, nodes, [&](size_t leaf) {
+    if (settled.shares_[leaf]) settled.shared_[settled.shares_.place(leaf)] = named_[leaf];
+  });
   *this = std::move(settled);
 }
 

@@ -52,7 +52,7 @@ class LeafPoints {
   void name_own(size_t leaf, int32_t first, const Places& places);
   void forget(size_t leaf) { named_[leaf] = none; }
   // All are named: less room, and places can be looked up.
-  void settle();
+  void settle(ThreadTeam& team);
 
   // Of settled ones. number: the new one of each point that is named.
   void renumber(const std::vector<int32_t>& number, ThreadTeam& team);

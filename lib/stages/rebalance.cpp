@@ -85,8 +85,8 @@ void rebalance(State& state, ThreadTeam& team, Exchange& exchange, std::vector<d
   const int ranks = exchange.comm().size();
   std::vector<double> links = links_of_surfaces(state, exchange);
   const auto itself = [](size_t k) { return static_cast<int32_t>(k); };
-  exchange.share(work, itself);
-  exchange.share(links, itself);
+  exchange.share(work, itself, team);
+  exchange.share(links, itself, team);
   std::vector<int32_t> owners = owners_by(state, work, ranks);
   double moved = 0, all_links = 0, all_work = 0;
   for (size_t k = 0; k < owners.size(); ++k) {

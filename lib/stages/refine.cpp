@@ -261,7 +261,7 @@ void RefiningRound::number_anew() {
       own.push_back(k);
     }
     exchange_.share_lists(families, surface_of);
-    exchange_.share(handed_on, surface_of);
+    exchange_.share(handed_on, surface_of, tools_.team);
     const std::vector<NodeId> first = add_families(state_, roots, families, tools_.team);
     for (size_t k = 0; k < own.size(); ++k) {
       passes_[p].roots[k] = roots[own[k]];

@@ -131,21 +131,20 @@ std::vector<uint8_t> RowMesh::uneven_cells(const Brightness& brightness) {
 void RowMesh::divide_leaves(const std::vector<NodeId>& leaves) {
   const NodeId first = add_children(leaves);
   if (settings_.means_only) return;
-  std::vector<ElementPoints> wanted;
-  for (size_t k = 0; k < leaves.size(); ++k) {
-    if (!is_mine(leaves[k])) continue;
-    if (forest_.nodes[leaves[k]].light_points == half_way_to_the_middle) {
-      const NodeId child = first + 4 * static_cast<NodeId>(k);
-      for (NodeId id = child; id < child + 4; ++id) {
-        forest_.nodes[id].light_points = half_way_to_the_middle;
-        wanted.push_back({id, PointsOf::half_way_to_the_middle});
-      }
-    } else {
-      wanted.push_back({leaves[k], PointsOf::corners});
-      wanted.push_back({leaves[k], PointsOf::middles_of_edges});
-    }
-  }
-  corners_.want(wanted);
+  corners_.want(gathered<ElementPoints>(
+      tools_.team, leaves.size(), [&](size_t k, std::vector<ElementPoints>& wanted) {
+        if (!is_mine(leaves[k])) return;
+        if (forest_.nodes[leaves[k]].light_points == half_way_to_the_middle) {
+          const NodeId child = first + 4 * static_cast<NodeId>(k);
+          for (NodeId id = child; id < child + 4; ++id) {
+            forest_.nodes[id].light_points = half_way_to_the_middle;
+            wanted.push_back({id, PointsOf::half_way_to_the_middle});
+          }
+        } else {
+          wanted.push_back({leaves[k], PointsOf::corners});
+          wanted.push_back({leaves[k], PointsOf::middles_of_edges});
+        }
+      }));
 }
 
 // By their children, all in ascending order.
@@ -169,21 +168,25 @@ void RowMesh::replace_cells(const std::vector<NodeId>& divided, std::vector<Node
 
 bool RowMesh::divide_cells(const Brightness& brightness, std::vector<NodeId>& new_cells) {
   const std::vector<uint8_t> divide = uneven_cells(brightness);
-  std::vector<NodeId> divided, leaves;
-  for (size_t k = 0; k < divide.size(); ++k) {
-    if (!divide[k]) continue;
-    const NodeId cell = state_.cells[k];
-    divided.push_back(cell);
-    if (forest_.is_leaf(cell)) leaves.push_back(cell);
-  }
+  const std::vector<NodeId> divided =
+      gathered<NodeId>(tools_.team, divide.size(), [&](size_t k, std::vector<NodeId>& some) {
+        if (divide[k]) some.push_back(state_.cells[k]);
+      });
+  const std::vector<NodeId> leaves =
+      gathered<NodeId>(tools_.team, divided.size(), [&](size_t k, std::vector<NodeId>& some) {
+        if (forest_.is_leaf(divided[k])) some.push_back(divided[k]);
+      });
   const NodeId end = static_cast<NodeId>(forest_.nodes.size());
   divide_leaves(leaves);
   if (!sample_corners()) return false;
   if (!measure_exposure(end)) return false;
   replace_cells(divided, new_cells);
-  std::vector<LinkTable::NewRun> dropped;
-  for (NodeId cell : divided) dropped.push_back({cell, {}});
-  state_.links.replace(std::move(dropped), &tools_.team);
+  state_.links.replace(
+      gathered<LinkTable::NewRun>(tools_.team, divided.size(),
+                                  [&](size_t k, std::vector<LinkTable::NewRun>& dropped) {
+                                    dropped.push_back({divided[k], {}});
+                                  }),
+      &tools_.team);
   return name_leaves();
 }
 

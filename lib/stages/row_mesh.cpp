@@ -125,7 +125,8 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
     }
     kept[k] = low >= 0 && weighed((high - low) / 2, forest_.area(node)) <= 1;
   });
-  tools_.exchange.share(kept, [&](size_t k) { return forest_.nodes[open[k]].surface; });
+  tools_.exchange.share(
+      kept, [&](size_t k) { return forest_.nodes[open[k]].surface; }, tools_.team);
   std::vector<NodeId> rest;
   for (size_t k = 0; k < open.size(); ++k) {
     if (kept[k])
@@ -141,10 +142,10 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
 // Of this process's own among the elements.
 std::vector<ElementPoints> RowMesh::points_of_own(const std::vector<NodeId>& elements,
                                                   PointsOf which) const {
-  std::vector<ElementPoints> all;
-  for (NodeId id : elements)
-    if (is_mine(id)) all.push_back({id, which});
-  return all;
+  return gathered<ElementPoints>(tools_.team, elements.size(),
+                                 [&](size_t k, std::vector<ElementPoints>& own) {
+                                   if (is_mine(elements[k])) own.push_back({elements[k], which});
+                                 });
 }
 
 // To guess how much work there will be, of the points that two levels ask for: later levels go on

@@ -130,7 +130,8 @@ void serve_the_sum(const State& state, const StageTools& tools, const RowSetting
   });
   const double wanted = deviation_of_the_sum * least_emitted(state, light);
   if (variance_of_sum(parts, tools.exchange) <= wanted * wanted) return;
-  tools.exchange.share(parts, [&](size_t k) { return forest.nodes[state.cells[k]].surface; });
+  tools.exchange.share(
+      parts, [&](size_t k) { return forest.nodes[state.cells[k]].surface; }, tools.team);
   double deviation = 0, all = 0;
   for (const Part& part : parts) {
     deviation += part.deviation;

@@ -39,8 +39,7 @@ void stay_near_the_mean(const State& state, Brightness& light) {
   if (!(sum > 0) || 2 * sum >= area) return;
   const double factor = area / (2 * sum);
   for (double& unit : light.unit) unit *= factor;
-  for (auto* values : {&light.of_node, &light.spread})
-    for (float& value : *values) value = static_cast<float>(value * factor);
+  for (float& value : light.of_node) value = static_cast<float>(value * factor);
 }
 
 Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
@@ -50,8 +49,8 @@ Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
   const OwnRuns runs(state, tools.exchange, tools.team);
   for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, runs);
   tools.exchange.finish_update(state, tools.team);
-  if (state.forest.clusters.empty()) tools.exchange.share_roots(state);
-  Brightness light = measure_brightness(state, tools.team, tools.exchange);
+  if (state.forest.clusters.empty()) tools.exchange.share_roots(state, tools.team);
+  Brightness light = brightness_of_nodes(state, tools.team, tools.exchange);
   stay_near_the_mean(state, light);
   return light;
 }

@@ -12,6 +12,8 @@ namespace hrad {
 namespace {
 
 constexpr size_t surfaces_of_a_task = 64;
+// Few large surfaces have most of the elements: many tasks, so that none has many of those.
+constexpr size_t tasks_of_pushing = 128;
 
 template <class Body>
 void for_each_root(const State& state, ThreadTeam& team, const Body& body) {
@@ -38,7 +40,8 @@ std::vector<double> surface_sums(const State& state, ThreadTeam& team, const Exc
   std::vector<double> rows(static_cast<size_t>(state.forest.surface_count()) * bands, 0.0);
   for_each_surface(state, team, exchange,
                    [&](NodeId root) { row_of(root, &rows[static_cast<size_t>(root) * bands]); });
-  exchange.share_rows(rows, bands, [](size_t k) { return static_cast<int32_t>(k); });
+  exchange.share_rows(
+      rows, bands, [](size_t k) { return static_cast<int32_t>(k); }, team);
   std::vector<double> total(bands, 0.0);
   for (size_t k = 0; k < rows.size();)
     for (size_t b = 0; b < bands; ++b) total[b] += rows[k++];
@@ -53,25 +56,25 @@ std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exch
   const PushPull push_pull = sweep_kernels()[0]->push_pull;
   std::vector<std::vector<ExactSum>> of_thread(static_cast<size_t>(team.size()));
   for (std::vector<ExactSum>& sums : of_thread) sums.resize(bands);
-  const size_t all = static_cast<size_t>(forest.surface_count());
+  std::vector<NodeId> own;
+  for (NodeId root = 0; root < forest.surface_count(); ++root)
+    if (exchange.mine(root)) own.push_back(root);
+  const size_t of_a_task = std::clamp(own.size() / tasks_of_pushing, size_t{1}, surfaces_of_a_task);
   const auto some = [&](int64_t task, int thread) {
-    NodeId roots[surfaces_of_a_task];
     double rows[surfaces_of_a_task * most_bands];
-    const size_t begin = static_cast<size_t>(task) * surfaces_of_a_task;
-    size_t own = 0;
-    for (size_t k = begin; k < std::min(all, begin + surfaces_of_a_task); ++k)
-      if (exchange.mine(static_cast<int32_t>(k))) roots[own++] = static_cast<NodeId>(k);
-    push_pull({forest.nodes.data(), forest.surfaces.data(), roots, own, state.bands,
+    const NodeId* roots = &own[static_cast<size_t>(task) * of_a_task];
+    const size_t count = std::min<size_t>(of_a_task, own.data() + own.size() - roots);
+    push_pull({forest.nodes.data(), forest.surfaces.data(), roots, count, state.bands,
                scene.emission.data(), scene.reflectance.data(), state.irradiance.data(),
                state.radiosity.data()},
               rows);
     std::vector<ExactSum>& sums = of_thread[static_cast<size_t>(thread)];
     const double* value = rows;
-    for (size_t k = 0; k < own; ++k)
+    for (size_t k = 0; k < count; ++k)
       for (size_t b = 0; b < bands; ++b)
         sums[b].add(*value++ * forest.surfaces[static_cast<size_t>(roots[k])].area);
   };
-  team.for_each(static_cast<int64_t>(pieces_of(all, surfaces_of_a_task)), some);
+  team.for_each(static_cast<int64_t>(pieces_of(own.size(), of_a_task)), some);
   std::vector<ExactSum>& sums = of_thread.front();
   for (size_t thread = 1; thread < of_thread.size(); ++thread)
     for (size_t b = 0; b < bands; ++b) sums[b].add(of_thread[thread][b]);
@@ -143,7 +146,7 @@ std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange
   push_to_roots(state);
   std::vector<double> transported = push_pull_all(state, team, exchange);
   if (!state.forest.clusters.empty()) {
-    exchange.share_roots(state);
+    exchange.share_roots(state, team);
     pull_to_clusters(state);
   }
   return transported;
@@ -170,7 +173,7 @@ void reset_to_emission(State& state, ThreadTeam& team) {
   pull_to_clusters(state);
 }
 
-Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange) {
+Brightness brightness_of_nodes(const State& state, ThreadTeam& team, const Exchange& exchange) {
   const double area = state.forest.total_area();
   Brightness brightness;
   brightness.unit = surface_sums(state, team, exchange, [&](NodeId root, double* row) {
@@ -185,6 +188,11 @@ Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchan
   for_each_thing(team, brightness.of_node.size(), [&](size_t k) {
     brightness.of_node[k] = brightness_of(&state.radiosity[k * state.bands], brightness.unit);
   });
+  return brightness;
+}
+
+Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange) {
+  Brightness brightness = brightness_of_nodes(state, team, exchange);
   brightness.spread.resize(state.forest.nodes.size());
   for_each_root(state, team, [&](NodeId root) {
     spread_below(state, root, brightness.unit, brightness.spread);

@@ -26,7 +26,8 @@ void pull_exposure(State& state, ThreadTeam& team);
 // B = E, H = 0 everywhere: where every solve starts.
 void reset_to_emission(State& state, ThreadTeam& team);
 
-// Units, brightness and its spread, from the present radiosity.
+// Units and brightness from the present radiosity, without and with its spread.
+Brightness brightness_of_nodes(const State& state, ThreadTeam& team, const Exchange& exchange);
 Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange);
 
 // Before there is any irradiance: emitters by emission, the rest by the scene's mean

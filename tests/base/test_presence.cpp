@@ -29,11 +29,14 @@ void places_are_counted() {
     for (size_t size : {0, 1, 63, 64, 65, 128, 1000}) {
       Presence presence;
       std::vector<bool> has;
+      std::vector<uint64_t> words((size + Presence::of_a_word - 1) / Presence::of_a_word, 0);
       for (size_t k = 0; k < size; ++k) {
         has.push_back(mix(k, share) % 100 < share);
         presence.push_back(has.back());
+        words[k / Presence::of_a_word] |= uint64_t{has.back()} << k % Presence::of_a_word;
       }
       check_same(presence, has);
+      check_same(Presence(size, words), has);
     }
 }
 

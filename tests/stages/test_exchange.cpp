@@ -170,7 +170,8 @@ void roots_are_shared() {
         state.radiosity[k * bands] = static_cast<float>(k + 1);
         state.irradiance[k * bands] = static_cast<float>(2 * k + 1);
       }
-    exchange.share_roots(state);
+    ThreadTeam team(2);
+    exchange.share_roots(state, team);
     bool all = true;
     for (size_t k = 0; k < owner.size(); ++k)
       all = all && state.radiosity[k * bands] == static_cast<float>(k + 1) &&

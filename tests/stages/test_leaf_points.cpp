@@ -77,7 +77,8 @@ void what_is_named_stays_when_it_is_settled() {
   CHECK(!points.empty());
   check_same(points, table, false);
   const int64_t before = points.bytes();
-  points.settle();
+  ThreadTeam team(3);
+  points.settle(team);
   check_same(points, table, true);
   CHECK(points.bytes() < before);
 }
@@ -86,7 +87,8 @@ LeafPoints settled(const Table& table) {
   LeafPoints points;
   points.resize(nodes);
   for (size_t k = 0; k < nodes; ++k) name(points, table, k);
-  points.settle();
+  ThreadTeam team(1);
+  points.settle(team);
   return points;
 }
 
