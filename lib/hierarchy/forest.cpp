@@ -34,7 +34,7 @@ void require_numbers(size_t nodes) {
          nodes);
 }
 
-void place_children(std::vector<Node>& nodes, NodeId parent, NodeId first) {
+void place_children(GrowingArray<Node>& nodes, NodeId parent, NodeId first) {
   for (int child = 0; child < 4; ++child) {
     Node& node = nodes[static_cast<size_t>(first + child)];
     node = child_place(nodes[static_cast<size_t>(parent)], child);

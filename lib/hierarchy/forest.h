@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/growing_array.h"
 #include "base/span.h"
 #include "base/vec3.h"
 #include "hierarchy/clusters.h"
@@ -79,7 +80,7 @@ Node child_place(const Node& parent, int child);
 
 // Makes four nodes from `first` on, which are there already, the children of a leaf. Their exposure
 // is that of the parent, which is right where it is whole.
-void place_children(std::vector<Node>& nodes, NodeId parent, NodeId first);
+void place_children(GrowingArray<Node>& nodes, NodeId parent, NodeId first);
 
 // MEMORY when so many nodes are more than have numbers.
 void require_numbers(size_t nodes);
@@ -116,7 +117,7 @@ class Forest {
 
   const Scene* scene;
   std::vector<Surface> surfaces;  // in key order (patch, side)
-  std::vector<Node> nodes;
+  GrowingArray<Node> nodes;
   ClusterTree clusters;
 
  private:

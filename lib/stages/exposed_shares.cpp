@@ -18,7 +18,7 @@ bool take_share(KnownResult& known, float& share) {
 }  // namespace
 
 bool measure_exposure(State& state, const StageTools& tools, const std::vector<NodeId>& elements) {
-  std::vector<Node>& nodes = state.forest.nodes;
+  GrowingArray<Node>& nodes = state.forest.nodes;
   const LinkSampler sampler(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                             tools.oracle.near_ratio);
   const auto surface_of = [&](size_t k) { return nodes[elements[k]].surface; };

@@ -38,7 +38,7 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
                                  ThreadTeam& team) {
   constexpr size_t tasks_of_a_step = 64;
   const size_t bands = static_cast<size_t>(state.bands);
-  std::vector<Node>& nodes = state.forest.nodes;
+  GrowingArray<Node>& nodes = state.forest.nodes;
   std::vector<NodeId> first;
   size_t count = nodes.size();
   for (const std::vector<NewFamily>& of_task : families) {
@@ -75,7 +75,7 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
 }
 
 void drop_elements(State& state, size_t first) {
-  std::vector<Node>& nodes = state.forest.nodes;
+  GrowingArray<Node>& nodes = state.forest.nodes;
   for (size_t k = first; k < nodes.size(); ++k)
     nodes[static_cast<size_t>(nodes[k].parent)].first_child = -1;
   nodes.resize(first);

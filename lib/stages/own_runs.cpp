@@ -25,7 +25,7 @@ OwnRuns::Runs waiting(const LinkTable& table, size_t number, const Exchange& exc
 OwnRuns::OwnRuns(const State& state, const Exchange& exchange, ThreadTeam& team) {
   if (exchange.alone()) return;
   all_ = false;
-  const std::vector<Node>& nodes = state.forest.nodes;
+  const GrowingArray<Node>& nodes = state.forest.nodes;
   constexpr size_t of_a_block = LinkTable::receivers_of_a_block;
   std::vector<uint8_t> is_own(pieces_of(nodes.size(), of_a_block), 0);
   for_each_piece(

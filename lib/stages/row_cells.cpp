@@ -33,7 +33,7 @@ double square_of_longest_edge(const Triangle& t) {
 NodeId RowMesh::add_children(const std::vector<NodeId>& parents) {
   const size_t first = forest_.nodes.size();
   require_numbers(first + 4 * parents.size());
-  forest_.nodes.resize(first + 4 * parents.size());
+  forest_.nodes.resize_for_overwrite(first + 4 * parents.size());
   for_each_thing(tools_.team, parents.size(), [&](size_t k) {
     place_children(forest_.nodes, parents[k], static_cast<NodeId>(first + 4 * k));
   });

@@ -46,12 +46,13 @@ struct State {
   // Per node and band: the mean over the exposed part. And a few values more that don't count, for
   // whoever reads four at a time.
   static constexpr size_t floats_beyond = 4;
-  std::vector<float> radiosity;
-  std::vector<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
-                                  // links brought
+  GrowingArray<float> radiosity;
+  GrowingArray<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
+                                   // links brought
   // Room for the light of all nodes; that of new ones is 0.
   void resize_light() {
     const size_t values = forest.nodes.size() * static_cast<size_t>(bands);
+    irradiance.reserve(values);
     irradiance.resize(values);
     radiosity.reserve(values + floats_beyond);
     radiosity.resize(values);

@@ -38,7 +38,7 @@ void clear(State& state) {
     state.links = LinkTable();
     state.cells = std::vector<NodeId>();
     state.direct = CornerLight();
-    for (auto* light : {&state.radiosity, &state.irradiance}) *light = std::vector<float>();
+    for (auto* light : {&state.radiosity, &state.irradiance}) *light = GrowingArray<float>();
   });
 }
 

@@ -95,7 +95,7 @@ void visit_leaves(const Forest& forest, NodeId id, F&& f) {
   for (int child = 0; child < 4; ++child) visit_leaves(forest, node.first_child + child, f);
 }
 
-float pull_exposure_below(std::vector<Node>& nodes, NodeId id) {
+float pull_exposure_below(GrowingArray<Node>& nodes, NodeId id) {
   Node& node = nodes[id];
   if (node.first_child < 0) return node.exposed;
   float sum = 0;
@@ -159,9 +159,15 @@ void pull_exposure(State& state, ThreadTeam& team) {
 void reset_to_emission(State& state, ThreadTeam& team) {
   const Scene& scene = *state.forest.scene;
   const size_t bands = static_cast<size_t>(state.bands);
-  if (state.irradiance.size() != state.forest.nodes.size() * bands)  // nothing is to be kept
-    for (auto* light : {&state.irradiance, &state.radiosity}) *light = std::vector<float>();
-  state.resize_light();
+  const size_t values = state.forest.nodes.size() * bands;
+  if (state.irradiance.size() != values) {
+    for (auto* light : {&state.irradiance, &state.radiosity}) {
+      *light = GrowingArray<float>();  // nothing is to be kept
+      light->reserve(values + State::floats_beyond);
+      light->resize_for_overwrite(values);
+    }
+    state.resize_light();
+  }
   for_each_thing(team, state.forest.nodes.size(), [&](size_t k) {
     std::fill_n(&state.irradiance[k * bands], bands, 0.0f);
     if (Forest::is_cluster(state.forest.nodes[k])) return;

@@ -62,9 +62,10 @@ class Plain {
  public:
   Plain(Costs& costs, Part part) : memory_(costs.memory[part]), by_zlib_(costs.by_zlib[part]) {}
 
-  template <class T>
-  void add(const std::vector<T>& array) {
-    add(std::string(reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T)));
+  template <class Array>
+  void add(const Array& array) {
+    add(std::string(reinterpret_cast<const char*>(array.data()),
+                    array.size() * sizeof *array.data()));
   }
   void add(const hrad::LinkTable& table) {
     std::string bytes;

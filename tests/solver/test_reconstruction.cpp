@@ -33,7 +33,7 @@ struct Field {
   template <class F>
   void fill(F&& f) {
     leaves = forest.leaves();
-    state.irradiance.assign(forest.nodes.size() * bands, 0.0f);
+    state.irradiance.resize(forest.nodes.size() * bands);
     for (NodeId leaf : leaves)
       for (int b = 0; b < bands; ++b)
         state.irradiance[static_cast<size_t>(leaf) * bands + b] =

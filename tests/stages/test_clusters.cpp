@@ -157,7 +157,7 @@ void light_is_pushed_and_pulled() {
   const size_t bands = static_cast<size_t>(state.bands), count = state.forest.nodes.size();
   for (size_t k = 0; k < count * bands; ++k)
     state.irradiance[k] = static_cast<float>(unit_interval(mix(k)));
-  const std::vector<float> own = state.irradiance;
+  const GrowingArray<float> own = state.irradiance;
   for (NodeId root = 0; root < state.forest.surface_count(); ++root)
     state.forest.nodes[root].exposed = root % 4 == 1 ? 0.25f : 1.0f;
   measure_clusters(state.forest);

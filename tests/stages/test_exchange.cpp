@@ -110,7 +110,7 @@ void what_needs_no_message_does_not_wait() {
     exchange.ask_for_sources(state, team);
     const OwnRuns runs(state, exchange, team);
     const size_t bands = static_cast<size_t>(state.bands);
-    const auto value = [&](std::vector<float>& values, NodeId id) -> float& {
+    const auto value = [&](GrowingArray<float>& values, NodeId id) -> float& {
       return values[static_cast<size_t>(id) * bands];
     };
     value(state.radiosity, own.source) = static_cast<float>(here + 1);

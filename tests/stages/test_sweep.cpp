@@ -56,7 +56,7 @@ struct Tree : Workbench {
       state.irradiance[k] = static_cast<float>(unit_interval(mix(k, 7)));
   }
 
-  const float* value(const std::vector<float>& of, NodeId id) const {
+  const float* value(const GrowingArray<float>& of, NodeId id) const {
     return &of[static_cast<size_t>(id) * state.bands];
   }
   double emission(const Node& node, int b) const {
@@ -71,7 +71,7 @@ void leaves_have_what_all_above_them_gathered() {
   for (int bands : {1, 2, 3, 5}) {
     Tree tree(bands);
     const Forest& forest = tree.state.forest;
-    const std::vector<float> gathered = tree.state.irradiance;
+    const GrowingArray<float> gathered = tree.state.irradiance;
     push_pull(tree.state, tree.team, tree.exchange);
     int lit = 0, sealed = 0;
     for (NodeId leaf : forest.leaves()) {
@@ -251,7 +251,7 @@ void sweeps_reach_the_solution() {
 }
 
 void threads_change_no_bit() {
-  std::vector<float> radiosity;
+  GrowingArray<float> radiosity;
   std::vector<double> total;
   for (int threads : {1, 2, 5}) {
     Workbench bench(builtin_scene("classroom"), threads);
