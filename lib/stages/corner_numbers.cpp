@@ -80,12 +80,12 @@ std::vector<uint32_t> CornerNumbers::add(const std::vector<uint64_t>& keys, int3
       new_of[table].push_back({k, &number});
     }
   });
-  std::vector<uint32_t> added;
-  for (size_t k = 0; k < keys.size(); ++k) {
-    if (number_of[k] == NumberTable::none) continue;
-    number_of[k] = next++;
-    added.push_back(static_cast<uint32_t>(k));
-  }
+  const std::vector<uint32_t> added =
+      gathered<uint32_t>(team, keys.size(), [&](size_t k, std::vector<uint32_t>& some) {
+        if (number_of[k] != NumberTable::none) some.push_back(static_cast<uint32_t>(k));
+      });
+  for_each_thing(team, added.size(),
+                 [&](size_t k) { number_of[added[k]] = next + static_cast<int32_t>(k); });
   team.for_each(static_cast<int64_t>(table_count), [&](int64_t table, int) {
     for (const New& made : new_of[static_cast<size_t>(table)]) *made.number = number_of[made.key];
   });

@@ -44,14 +44,16 @@ void Exchange::ask_for_sources(const State& state, ThreadTeam& team) {
       for (const Link& link : table->block(static_cast<size_t>(block)).links)
         is_source[static_cast<size_t>(link.source)].store(1, std::memory_order_relaxed);
     });
-  // Clusters are made of them.
-  const bool roots_are_known = !forest.clusters.empty();
+  // Clusters, and the roots that they are made of, are known.
+  const auto is_known = [](const Node& node) {
+    return Forest::is_cluster(node) || (node.level == 0 && node.parent >= 0);
+  };
   asked_.resize(forest.nodes.size(), 0);
   const std::vector<NodeId> of_others =
       gathered<NodeId>(team, forest.nodes.size(), [&](size_t k, std::vector<NodeId>& some) {
         if (!is_source[k].load(std::memory_order_relaxed) || asked_[k]) return;
         const Node& node = forest.nodes[k];
-        if ((roots_are_known && node.level == 0) || mine(node.surface)) return;
+        if (is_known(node) || mine(node.surface)) return;
         asked_[k] = 1;
         some.push_back(static_cast<NodeId>(k));
       });
@@ -71,17 +73,35 @@ void Exchange::ask_for_sources(const State& state, ThreadTeam& team) {
   }
 }
 
+namespace {
+
+// body(rank, k) for each element of each rank's list.
+template <class Body>
+void for_each_asked(ThreadTeam& team, const std::vector<std::vector<NodeId>>& of_ranks,
+                    const Body& body) {
+  std::vector<size_t> first(1, 0);  // of each rank, one after the other
+  for (const std::vector<NodeId>& elements : of_ranks)
+    first.push_back(first.back() + elements.size());
+  for_each_piece(team, first.back(), [&](size_t, size_t begin, size_t end) {
+    size_t rank = 0;
+    for (size_t k = begin; k < end; ++k) {
+      while (k >= first[rank + 1]) ++rank;
+      body(rank, k - first[rank]);
+    }
+  });
+}
+
+}  // namespace
+
 void Exchange::start_update(const State& state, ThreadTeam& team) {
   if (alone()) return;
   const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
   std::vector<Bytes> to(asked_by_.size());
-  for (size_t rank = 0; rank < to.size(); ++rank) {
-    to[rank].resize(asked_by_[rank].size() * bytes);
-    for_each_thing(team, asked_by_[rank].size(), [&](size_t k) {
-      const size_t at = static_cast<size_t>(asked_by_[rank][k]) * bands;
-      std::memcpy(&to[rank][k * bytes], &state.radiosity[at], bytes);
-    });
-  }
+  for (size_t rank = 0; rank < to.size(); ++rank) to[rank].resize(asked_by_[rank].size() * bytes);
+  for_each_asked(team, asked_by_, [&](size_t rank, size_t k) {
+    const size_t at = static_cast<size_t>(asked_by_[rank][k]) * bands;
+    std::memcpy(&to[rank][k * bytes], &state.radiosity[at], bytes);
+  });
   count(updates, to);
   comm_.start_exchange(std::move(to));
 }
@@ -90,11 +110,10 @@ void Exchange::finish_update(State& state, ThreadTeam& team) {
   if (!comm_.exchanging()) return;
   const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
   const std::vector<Bytes> from = comm_.finish_exchange();
-  for (size_t rank = 0; rank < from.size(); ++rank)
-    for_each_thing(team, asked_of_[rank].size(), [&](size_t k) {
-      const size_t at = static_cast<size_t>(asked_of_[rank][k]) * bands;
-      std::memcpy(&state.radiosity[at], &from[rank][k * bytes], bytes);
-    });
+  for_each_asked(team, asked_of_, [&](size_t rank, size_t k) {
+    const size_t at = static_cast<size_t>(asked_of_[rank][k]) * bands;
+    std::memcpy(&state.radiosity[at], &from[rank][k * bytes], bytes);
+  });
 }
 
 // MPI moves large messages only within its own functions.
@@ -145,6 +164,14 @@ void Exchange::share_roots(State& state, ThreadTeam& team) {
   const size_t sent = share_light_of(
       comm_, team, state, owner_.size(), [&](size_t root) { return owner_[root]; },
       [](size_t root) { return root; });
+  count_totals(static_cast<int64_t>(sent));
+}
+
+void Exchange::share_roots_of_clusters(State& state, ThreadTeam& team) {
+  const std::vector<int32_t>& roots = state.forest.clusters.order;
+  const size_t sent = share_light_of(
+      comm_, team, state, roots.size(), [&](size_t k) { return owner_[roots[k]]; },
+      [&](size_t k) { return static_cast<size_t>(roots[k]); });
   count_totals(static_cast<int64_t>(sent));
 }
 

@@ -79,6 +79,12 @@ class Exchange {
   void share_turns(std::vector<T>& values) const {
     hrad::share_turns(comm_, values);
   }
+  template <class T>
+  void share_turns(std::vector<T>& values, ThreadTeam& team) const {
+    share_rows_of(comm_, team, values, 1, [&](size_t k) {
+      return static_cast<int>(k % static_cast<size_t>(comm_.size()));
+    });
+  }
   // The same of rows of so many values.
   template <class T, class SurfaceOf>
   void share_rows(std::vector<T>& rows, size_t values, const SurfaceOf& surface_of) const {
@@ -101,8 +107,9 @@ class Exchange {
   void make_progress() const;
   // What all processes have added up, a sum for each band (T).
   void add_up(std::vector<ExactSum>& sums);
-  // Light on the roots, known to all (T).
+  // Light on the roots, or on those that clusters are made of, known to all (T).
   void share_roots(State& state, ThreadTeam& team);
+  void share_roots_of_clusters(State& state, ThreadTeam& team);
   // Light on all elements, known to all.
   void share_light(State& state, ThreadTeam& team) const;
   // The hierarchy has gone back to the roots: nothing is asked for any more.

@@ -2,6 +2,7 @@
 #include "stages/exposed_shares.h"
 
 #include "links/link_sampler.h"
+#include "machine/pieces.h"
 #include "stages/exchange.h"
 #include "stages/task_names.h"
 
@@ -21,27 +22,34 @@ bool measure_exposure(State& state, const StageTools& tools, const std::vector<N
   GrowingArray<Node>& nodes = state.forest.nodes;
   const LinkSampler sampler(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                             tools.oracle.near_ratio);
-  const auto surface_of = [&](size_t k) { return nodes[elements[k]].surface; };
-  std::vector<float> exposed(elements.size(), 0.0f);
-  std::vector<size_t> looked_at;  // of the own ones; the others are exposed all over
-  for (size_t k = 0; k < elements.size(); ++k) {
-    if (!tools.exchange.mine(surface_of(k))) continue;
-    exposed[k] = 1;
-    const Surface& surface = state.forest.surfaces[surface_of(k)];
-    if (tools.exposure.can_be_sealed(surface.patch, surface.side)) looked_at.push_back(k);
-  }
-  const auto element = [&](size_t task) { return elements[looked_at[task]]; };
-  const auto share = [&](size_t task) -> float& { return exposed[looked_at[task]]; };
+  // The others are exposed all over.
+  const std::vector<NodeId> looked_at =
+      gathered<NodeId>(tools.team, elements.size(), [&](size_t k, std::vector<NodeId>& some) {
+        Node& node = nodes[elements[k]];
+        const Surface& surface = state.forest.surfaces[node.surface];
+        if (tools.exposure.can_be_sealed(surface.patch, surface.side))
+          some.push_back(elements[k]);
+        else
+          node.exposed = 1;
+      });
+  // All want to know all of them: each takes its turns, whosever the elements are.
+  std::vector<float> exposed(looked_at.size(), 0.0f);
+  std::vector<size_t> own;
+  for (size_t k = 0; k < looked_at.size(); ++k)
+    if (tools.exchange.my_turn(static_cast<int64_t>(k))) own.push_back(k);
+  const auto element = [&](size_t task) { return looked_at[own[task]]; };
+  const auto share = [&](size_t task) -> float& { return exposed[own[task]]; };
   const bool going_on = state.journal.next_pass_of(
-      tools.team, looked_at.size(),
+      tools.team, own.size(),
       {[&](size_t task) { return name_of_element(state.forest, element(task)); },
        [&](size_t task, KnownResult& known) { return take_share(known, share(task)); },
        [&](size_t task, int) { share(task) = sampler.exposed_share(nodes[element(task)]); },
        [&](size_t task, Bytes& bytes) { put(bytes, &share(task), 1); }},
       [&](int64_t) { return tools.progress(0); });
   if (!tools.exchange.all_go_on(going_on)) return false;
-  tools.exchange.share(exposed, surface_of);
-  for (size_t k = 0; k < exposed.size(); ++k) nodes[elements[k]].exposed = exposed[k];
+  tools.exchange.share_turns(exposed, tools.team);
+  for_each_thing(tools.team, exposed.size(),
+                 [&](size_t k) { nodes[looked_at[k]].exposed = exposed[k]; });
   return true;
 }
 

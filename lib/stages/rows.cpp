@@ -49,7 +49,7 @@ Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
   const OwnRuns runs(state, tools.exchange, tools.team);
   for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, runs);
   tools.exchange.finish_update(state, tools.team);
-  if (state.forest.clusters.empty()) tools.exchange.share_roots(state, tools.team);
+  tools.exchange.share_roots(state, tools.team);
   Brightness light = brightness_of_nodes(state, tools.team, tools.exchange);
   stay_near_the_mean(state, light);
   return light;

@@ -146,7 +146,7 @@ std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange
   push_to_roots(state);
   std::vector<double> transported = push_pull_all(state, team, exchange);
   if (!state.forest.clusters.empty()) {
-    exchange.share_roots(state, team);
+    exchange.share_roots_of_clusters(state, team);
     pull_to_clusters(state);
   }
   return transported;

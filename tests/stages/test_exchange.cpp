@@ -181,11 +181,50 @@ void roots_are_shared() {
   for (uint8_t r : right) CHECK(r);
 }
 
+// Those that clusters are made of are told to all without being asked for; others are asked for.
+void roots_of_clusters_are_shared() {
+  const Scene scene = builtin_scene("cornell");
+  constexpr NodeId in_clusters = 6;
+  std::vector<uint8_t> right(ranks, 0);
+  std::vector<int64_t> asked(ranks, 0);
+  on_ranks(ranks, [&](Comm& comm) {
+    State state(scene);
+    ThreadTeam team(2);
+    std::vector<ClusterItem> items;
+    for (NodeId k = 0; k < in_clusters; ++k)
+      items.push_back({k, state.forest.root_triangle(k).centroid(), 0.1});
+    add_clusters(state.forest, items);
+    std::vector<int32_t> owner;
+    const auto surfaces = static_cast<NodeId>(state.forest.surface_count());
+    for (NodeId k = 0; k < surfaces; ++k) owner.push_back(owner_of(k));
+    Exchange exchange(comm, owner);
+    state.resize_light();
+    const size_t bands = static_cast<size_t>(state.bands);
+    for (NodeId k = 0; k < surfaces; ++k)
+      if (exchange.mine(k)) state.radiosity[static_cast<size_t>(k) * bands] = 1;
+    exchange.share_roots_of_clusters(state, team);
+    const int rank = comm.rank();
+    bool all = true;
+    for (NodeId k = 0; k < surfaces; ++k)
+      all = all && state.radiosity[static_cast<size_t>(k) * bands] ==
+                       (k < in_clusters || exchange.mine(k) ? 1.0f : 0.0f);
+    const NodeId next = (rank + 1) % ranks;
+    link_to(state, rank, {next, in_clusters + next, surfaces});  // the last is a cluster
+    exchange.ask_for_sources(state, team);
+    all = all && !exchange.comes_by_message(next) && exchange.comes_by_message(in_clusters + next);
+    right[static_cast<size_t>(rank)] = all;
+    asked[static_cast<size_t>(rank)] = exchange.counts().bytes[0];
+  });
+  for (uint8_t r : right) CHECK(r);
+  for (int64_t bytes : asked) CHECK_EQUAL(bytes, static_cast<int64_t>(sizeof(NodeId)));
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {HRAD_TEST(elements_are_asked_for_once),
                               HRAD_TEST(what_needs_no_message_does_not_wait),
-                              HRAD_TEST(totals_are_exact), HRAD_TEST(roots_are_shared)};
+                              HRAD_TEST(totals_are_exact), HRAD_TEST(roots_are_shared),
+                              HRAD_TEST(roots_of_clusters_are_shared)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
