@@ -2,7 +2,7 @@
 # Every test of a fresh clone: installs what is missing (Debian, as root or with sudo), builds with
 # warnings as errors, runs the tests.
 #   bash tests/run.sh          every test, some minutes on two cores; with clang and its libFuzzer
-#                              also every fuzz target for a minute
+#                              also every fuzz target for half a minute
 #   bash tests/run.sh --full   before that the same tests under the address, undefined behaviour and
 #                              thread sanitizers, a build without options, every example from an installed
 #                              prefix (tests/consumers.sh), Debian packages (tests/packages.sh), the
@@ -89,4 +89,4 @@ if $full; then
     --case accuracy=0.05 --case accuracy=0.02 building classroom
 fi
 run_tests build-tests 600
-fuzz 60
+fuzz "$($full && echo 120 || echo 30)"

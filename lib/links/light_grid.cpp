@@ -74,26 +74,32 @@ size_t LightGrid::add_cubes(Grid& grid, const std::vector<OrientedPoint>& points
   const size_t before = grid.cubes.size();
   std::vector<uint64_t> key(points.size());
   for_each_thing(team, key.size(), [&](size_t k) { key[k] = key_of(grid, points[k]); });
-  std::vector<uint32_t> count;  // of the points of each new cube
-  std::vector<int32_t> cube(key.size());
-  for (size_t k = 0; k < key.size(); ++k) {
-    if (k > 0 && key[k] == key[k - 1]) {  // neighbours mostly lie in the same
-      cube[k] = cube[k - 1];
-    } else {
-      int32_t& number = grid.number.at(key[k]);
-      if (number == NumberTable::none) {
-        number = static_cast<int32_t>(before + count.size());
-        count.push_back(0);
-      }
-      cube[k] = number;
+  // Neighbours mostly lie in the same cube: runs of them, by their first ones.
+  const std::vector<size_t> first =
+      gathered<size_t>(team, key.size(), [&](size_t k, std::vector<size_t>& some) {
+        if (k == 0 || key[k] != key[k - 1]) some.push_back(k);
+      });
+  const auto end_of = [&](size_t run) {
+    return run + 1 < first.size() ? first[run + 1] : key.size();
+  };
+  std::vector<size_t> count;  // of the points of each new cube
+  std::vector<size_t> cube(first.size());
+  for (size_t run = 0; run < first.size(); ++run) {
+    int32_t& number = grid.number.at(key[first[run]]);
+    if (number == NumberTable::none) {
+      number = static_cast<int32_t>(before + count.size());
+      count.push_back(0);
     }
-    if (static_cast<size_t>(cube[k]) >= before) ++count[static_cast<size_t>(cube[k]) - before];
+    cube[run] = static_cast<size_t>(number);
+    if (cube[run] >= before) count[cube[run] - before] += end_of(run) - first[run];
   }
   grid.cubes.resize(before + count.size());
   for (size_t c = 0; c < count.size(); ++c) grid.cubes[before + c].points.reserve(count[c]);
-  for (size_t k = 0; k < key.size(); ++k)
-    if (static_cast<size_t>(cube[k]) >= before)
-      grid.cubes[static_cast<size_t>(cube[k])].points.push_back(static_cast<int32_t>(k));
+  for (size_t run = 0; run < first.size(); ++run) {
+    if (cube[run] < before) continue;
+    std::vector<int32_t>& inside = grid.cubes[cube[run]].points;
+    for (size_t k = first[run]; k < end_of(run); ++k) inside.push_back(static_cast<int32_t>(k));
+  }
   return before;
 }
 

@@ -8,7 +8,7 @@ namespace hrad {
 namespace {
 
 constexpr size_t table_count = 64;
-constexpr size_t keys_of_a_piece = 4096;
+constexpr size_t keys_of_a_piece = 1024;
 
 }  // namespace
 

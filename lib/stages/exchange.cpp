@@ -15,8 +15,15 @@ enum Kind { requests, updates, totals };
 
 }  // namespace
 
-Exchange::Exchange(Comm& comm, std::vector<int32_t> owner_of_surface)
-    : comm_(comm), owner_(std::move(owner_of_surface)) {
+Exchange::Exchange(Comm& comm, std::vector<int32_t> owner_of_surface) : comm_(comm) {
+  deal_out(std::move(owner_of_surface));
+}
+
+void Exchange::deal_out(std::vector<int32_t> owner_of_surface) {
+  owner_ = std::move(owner_of_surface);
+  own_.clear();
+  for (size_t surface = 0; surface < owner_.size(); ++surface)
+    if (is_me(owner_[surface])) own_.push_back(static_cast<int32_t>(surface));
   forget();
 }
 

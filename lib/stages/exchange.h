@@ -31,6 +31,7 @@ class Exchange {
   bool is_me(int32_t owner) const { return owner == comm_.rank(); }
   bool mine(int32_t surface) const { return is_me(owner_[surface]); }
   bool mine(const Forest& forest, NodeId id) const { return mine(surface_of(forest, id)); }
+  const std::vector<int32_t>& own_surfaces() const { return own_; }  // ascending
   // A cluster belongs to the owner of its first surface.
   static int32_t surface_of(const Forest& forest, NodeId id) {
     const Node& node = forest.nodes[id];
@@ -115,10 +116,7 @@ class Exchange {
   // The hierarchy has gone back to the roots: nothing is asked for any more.
   void forget();
   // Other owners of the surfaces from now on, to be asked anew.
-  void deal_out(std::vector<int32_t> owner_of_surface) {
-    owner_ = std::move(owner_of_surface);
-    forget();
-  }
+  void deal_out(std::vector<int32_t> owner_of_surface);
 
   const MessageCounts& counts() const { return counts_; }
   Comm& comm() const { return comm_; }
@@ -128,7 +126,7 @@ class Exchange {
   void count_totals(int64_t bytes);
 
   Comm& comm_;
-  std::vector<int32_t> owner_;
+  std::vector<int32_t> owner_, own_;
   std::vector<uint8_t> asked_;                 // per node
   std::vector<std::vector<NodeId>> asked_of_;  // per rank, ascending at each time of asking
   std::vector<std::vector<NodeId>> asked_by_;  // likewise

@@ -56,9 +56,7 @@ std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exch
   const PushPull push_pull = sweep_kernels()[0]->push_pull;
   std::vector<std::vector<ExactSum>> of_thread(static_cast<size_t>(team.size()));
   for (std::vector<ExactSum>& sums : of_thread) sums.resize(bands);
-  std::vector<NodeId> own;
-  for (NodeId root = 0; root < forest.surface_count(); ++root)
-    if (exchange.mine(root)) own.push_back(root);
+  const std::vector<NodeId>& own = exchange.own_surfaces();  // whose numbers are those of roots
   const size_t of_a_task = std::clamp(own.size() / tasks_of_pushing, size_t{1}, surfaces_of_a_task);
   const auto some = [&](int64_t task, int thread) {
     double rows[surfaces_of_a_task * most_bands];
