@@ -87,6 +87,8 @@ class GrowingArray {
 
  private:
   static constexpr size_t least = 16;
+  static constexpr size_t most =
+      static_cast<size_t>(std::numeric_limits<std::ptrdiff_t>::max()) / sizeof(T);
   struct Free {
     void operator()(T* values) const { std::free(values); }
   };
@@ -95,7 +97,7 @@ class GrowingArray {
     if (capacity == 0) {
       values_.reset();
     } else {
-      if (capacity > std::numeric_limits<size_t>::max() / sizeof(T)) throw std::bad_alloc();
+      if (capacity > most) throw std::bad_alloc();
       void* moved = std::realloc(static_cast<void*>(values_.get()), capacity * sizeof(T));
       if (!moved) throw std::bad_alloc();
       static_cast<void>(values_.release());

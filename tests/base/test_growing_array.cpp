@@ -94,8 +94,8 @@ void it_is_copied_and_moved() {
 void too_much_is_bad_alloc() {
   GrowingArray<Thing> array;
   array.push_back({5, 5});
-  for (size_t size : {std::numeric_limits<size_t>::max(),
-                      std::numeric_limits<size_t>::max() / sizeof(Thing) - 1}) {
+  constexpr auto most = static_cast<size_t>(std::numeric_limits<std::ptrdiff_t>::max());
+  for (size_t size : {std::numeric_limits<size_t>::max(), most / sizeof(Thing) + 1}) {
     bool thrown = false;
     try {
       array.reserve(size);
