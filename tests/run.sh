@@ -6,7 +6,7 @@
 #   bash tests/run.sh --full   before that the same tests under the address, undefined behaviour and
 #                              thread sanitizers, a build without options, every example from an installed
 #                              prefix (tests/consumers.sh), Debian packages (tests/packages.sh), the
-#                              linters (tests/lint.sh), and all benchmarks
+#                              linters (tests/lint.sh), and all benchmarks; two minutes of fuzzing each
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

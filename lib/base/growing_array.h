@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <memory>
@@ -75,10 +74,11 @@ class GrowingArray {
     size_ = size;
   }
   void reserve(size_t capacity) {
-    if (capacity > capacity_) move_to(capacity);
+    if (capacity > capacity_ && !move_to(capacity)) throw std::bad_alloc();
   }
+  // Stays as it is where there is no memory to make it smaller.
   void shrink_to_fit() {
-    if (size_ < capacity_) move_to(size_);
+    if (size_ < capacity_) static_cast<void>(move_to(size_));
   }
   void clear() { size_ = 0; }
   bool operator==(const GrowingArray& other) const {
@@ -93,17 +93,19 @@ class GrowingArray {
     void operator()(T* values) const { std::free(values); }
   };
 
-  void move_to(size_t capacity) {
+  // False: there is no memory, and nothing has changed.
+  bool move_to(size_t capacity) {
     if (capacity == 0) {
       values_.reset();
     } else {
-      if (capacity > most) throw std::bad_alloc();
+      if (capacity > most) return false;
       void* moved = std::realloc(static_cast<void*>(values_.get()), capacity * sizeof(T));
-      if (!moved) throw std::bad_alloc();
+      if (!moved) return false;
       static_cast<void>(values_.release());
       values_.reset(static_cast<T*>(moved));
     }
     capacity_ = capacity;
+    return true;
   }
 
   size_t size_ = 0, capacity_ = 0;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "machine/pieces.h"
@@ -23,20 +25,26 @@ class RowsOfOwners {
     for_each_piece(
         team, rows,
         [&](size_t piece, size_t begin, size_t end) {
-          for (size_t k = begin; k < end; ++k)
-            ++first_[piece * owners_ + static_cast<size_t>(owner_of(k))];
+          std::vector<size_t> count(owners_, 0);
+          for (size_t k = begin; k < end; ++k) ++count[static_cast<size_t>(owner_of(k))];
+          std::copy(count.begin(), count.end(), &first_[piece * owners_]);
         },
         rows_of_a_piece);
     total_.assign(owners_, 0);
-    for (size_t at = 0; at < first_.size(); ++at) {
-      const size_t count = first_[at];
-      first_[at] = total_[at % owners_];
-      total_[at % owners_] += count;
-    }
+    for (size_t piece = 0; piece * owners_ < first_.size(); ++piece)
+      for (size_t owner = 0; owner < owners_; ++owner) {
+        size_t& first = first_[piece * owners_ + owner];
+        const size_t count = first;
+        first = total_[owner];
+        total_[owner] += count;
+      }
   }
 
   size_t of(int owner) const { return total_[static_cast<size_t>(owner)]; }
-  // Of the first rows in a piece, for each owner.
+  // Of the first row in a piece that is an owner's; of each owner.
+  size_t first(size_t piece, int owner) const {
+    return first_[piece * owners_ + static_cast<size_t>(owner)];
+  }
   std::vector<size_t> first(size_t piece) const {
     const size_t* own = first_.data() + piece * owners_;
     return std::vector<size_t>(own, own + owners_);
@@ -60,7 +68,7 @@ size_t share_rows(Comm& comm, ThreadTeam& team, size_t rows, size_t bytes, const
   for_each_piece(
       team, rows,
       [&](size_t piece, size_t begin, size_t end) {
-        char* to = own.data() + places.first(piece)[static_cast<size_t>(comm.rank())] * bytes;
+        char* to = own.data() + places.first(piece, comm.rank()) * bytes;
         for (size_t k = begin; k < end; ++k) {
           if (owner_of(k) != comm.rank()) continue;
           write(k, to);

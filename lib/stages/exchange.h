@@ -49,7 +49,16 @@ class Exchange {
   void share(std::vector<T>& values, const SurfaceOf& surface_of) const {
     share_values(comm_, values, [&](size_t k) { return owner_[surface_of(k)]; });
   }
-  // The same, and rows of so many values, by a team.
+  // The same of rows of so many values.
+  template <class T, class SurfaceOf>
+  void share_rows(std::vector<T>& rows, size_t values, const SurfaceOf& surface_of) const {
+    hrad::share(
+        comm_, rows.size() / values, [&](size_t k) { return owner_[surface_of(k)]; },
+        [&](size_t k, Bytes& bytes) { put(bytes, &rows[k * values], values); },
+        [&](size_t k, Taker& taker) { taker.take(&rows[k * values], values); });
+  }
+  // The same two by a team, where that isn't at work: reports of progress may ask for the first
+  // ones.
   template <class T, class SurfaceOf>
   void share(std::vector<T>& values, const SurfaceOf& surface_of, ThreadTeam& team) const {
     share_rows(values, 1, surface_of, team);
@@ -75,7 +84,7 @@ class Exchange {
   void send_to_owners(std::vector<T>& values, const SurfaceOf& surface_of) const {
     hrad::send_to_owners(comm_, values, [&](const T& value) { return owner_[surface_of(value)]; });
   }
-  // values[k] where each took its turn.
+  // values[k] where each took its turn; by a team, too.
   template <class T>
   void share_turns(std::vector<T>& values) const {
     hrad::share_turns(comm_, values);
@@ -85,14 +94,6 @@ class Exchange {
     share_rows_of(comm_, team, values, 1, [&](size_t k) {
       return static_cast<int>(k % static_cast<size_t>(comm_.size()));
     });
-  }
-  // The same of rows of so many values.
-  template <class T, class SurfaceOf>
-  void share_rows(std::vector<T>& rows, size_t values, const SurfaceOf& surface_of) const {
-    hrad::share(
-        comm_, rows.size() / values, [&](size_t k) { return owner_[surface_of(k)]; },
-        [&](size_t k, Bytes& bytes) { put(bytes, &rows[k * values], values); },
-        [&](size_t k, Taker& taker) { taker.take(&rows[k * values], values); });
   }
 
   // Asks for the elements that own links have begun to name since the last time (R).

@@ -22,15 +22,13 @@ bool measure_exposure(State& state, const StageTools& tools, const std::vector<N
   GrowingArray<Node>& nodes = state.forest.nodes;
   const LinkSampler sampler(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                             tools.oracle.near_ratio);
-  // The others are exposed all over.
+  const auto can_be_sealed = [&](NodeId id) {
+    const Surface& surface = state.forest.surfaces[nodes[id].surface];
+    return tools.exposure.can_be_sealed(surface.patch, surface.side);
+  };
   const std::vector<NodeId> looked_at =
       gathered<NodeId>(tools.team, elements.size(), [&](size_t k, std::vector<NodeId>& some) {
-        Node& node = nodes[elements[k]];
-        const Surface& surface = state.forest.surfaces[node.surface];
-        if (tools.exposure.can_be_sealed(surface.patch, surface.side))
-          some.push_back(elements[k]);
-        else
-          node.exposed = 1;
+        if (can_be_sealed(elements[k])) some.push_back(elements[k]);
       });
   // All want to know all of them: each takes its turns, whosever the elements are.
   std::vector<float> exposed(looked_at.size(), 0.0f);
@@ -48,6 +46,9 @@ bool measure_exposure(State& state, const StageTools& tools, const std::vector<N
       [&](int64_t) { return tools.progress(0); });
   if (!tools.exchange.all_go_on(going_on)) return false;
   tools.exchange.share_turns(exposed, tools.team);
+  for_each_thing(tools.team, elements.size(), [&](size_t k) {
+    if (!can_be_sealed(elements[k])) nodes[elements[k]].exposed = 1;
+  });
   for_each_thing(tools.team, exposed.size(),
                  [&](size_t k) { nodes[looked_at[k]].exposed = exposed[k]; });
   return true;

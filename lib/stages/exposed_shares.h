@@ -1,4 +1,4 @@
-// How much of elements is exposed, measured by the owners of their surfaces. Floor 7 (stages).
+// How much of elements is exposed, measured by one process each. Floor 7 (stages).
 #pragma once
 
 #include <vector>

@@ -52,7 +52,7 @@ struct State {
   // Room for the light of all nodes; that of new ones is 0.
   void resize_light() {
     const size_t values = forest.nodes.size() * static_cast<size_t>(bands);
-    irradiance.reserve(values);
+    irradiance.reserve(values);  // no more: these are exactly as large as the nodes are many
     irradiance.resize(values);
     radiosity.reserve(values + floats_beyond);
     radiosity.resize(values);
@@ -94,7 +94,8 @@ struct StageTools {
 struct Brightness {
   std::vector<double> unit;    // per band: 1 / root mean square irradiance; 0 for a dark band
   std::vector<float> of_node;  // per node
-  std::vector<float> spread;   // per node: largest deviation of a leaf's from the node's
+  std::vector<float> spread;   // per node: largest deviation of a leaf's from the node's; empty
+                               // where nobody wants to know
 };
 
 }  // namespace hrad

@@ -159,13 +159,13 @@ void reset_to_emission(State& state, ThreadTeam& team) {
   const size_t bands = static_cast<size_t>(state.bands);
   const size_t values = state.forest.nodes.size() * bands;
   if (state.irradiance.size() != values) {
-    for (auto* light : {&state.irradiance, &state.radiosity}) {
+    for (auto* light : {&state.irradiance, &state.radiosity})
       *light = GrowingArray<float>();  // nothing is to be kept
-      light->reserve(values + State::floats_beyond);
-      light->resize_for_overwrite(values);
-    }
-    state.resize_light();
+    state.irradiance.resize_for_overwrite(values);
+    state.radiosity.reserve(values + State::floats_beyond);
+    state.radiosity.resize_for_overwrite(values);
   }
+  state.resize_light();  // and what lies beyond
   for_each_thing(team, state.forest.nodes.size(), [&](size_t k) {
     std::fill_n(&state.irradiance[k * bands], bands, 0.0f);
     if (Forest::is_cluster(state.forest.nodes[k])) return;

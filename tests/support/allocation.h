@@ -1,9 +1,14 @@
-// Every allocation of the program goes through the test that includes this, once in a program.
+// Every allocation of the program goes through the test that includes this, once in a program: by
+// operator new, and by realloc() in what is linked with --wrap (CMakeLists.txt).
 #pragma once
 
 #include <cstddef>
 #include <cstdlib>
+#include <mutex>
 #include <new>
+
+extern "C" void* __real_realloc(void* block, size_t size);
+extern "C" void __real_free(void* block);
 
 namespace hrad_test {
 
@@ -22,7 +27,34 @@ inline void* allocate(size_t size, size_t alignment) {
 inline void give_back(void* block) {
   if (!block) return;
   note_given_back(block);
-  std::free(block);
+  __real_free(block);
+}
+
+// Blocks that came from realloc(), which free() and realloc() take back.
+class Reallocated {
+ public:
+  void add(void* block) { exchange(nullptr, block); }
+  // Whether it was one of them.
+  bool drop(void* block) { return block && exchange(block, nullptr); }
+
+ private:
+  bool exchange(void* before, void* after) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (void*& slot : slots_)
+      if (slot == before) {
+        slot = after;
+        return true;
+      }
+    if (!before) std::abort();  // more than there are slots
+    return false;
+  }
+
+  std::mutex mutex_;
+  void* slots_[1024] = {};
+};
+inline Reallocated& reallocated() {
+  static Reallocated all;
+  return all;
 }
 
 inline void* allocate_or_throw(size_t size, size_t alignment) {
@@ -34,6 +66,21 @@ inline void* allocate_or_throw(size_t size, size_t alignment) {
 constexpr size_t usual_alignment = alignof(std::max_align_t);
 
 }  // namespace hrad_test
+
+extern "C" void* __wrap_realloc(void* block, size_t size) {
+  using namespace hrad_test;
+  if (!may_allocate()) return nullptr;
+  if (reallocated().drop(block)) note_given_back(block);
+  void* moved = __real_realloc(block, size);
+  if (!moved) std::abort();  // no test asks for so much
+  reallocated().add(moved);
+  note_allocated(moved);
+  return moved;
+}
+extern "C" void __wrap_free(void* block) {
+  if (hrad_test::reallocated().drop(block)) hrad_test::note_given_back(block);
+  __real_free(block);
+}
 
 void* operator new(size_t size) {
   return hrad_test::allocate_or_throw(size, hrad_test::usual_alignment);
