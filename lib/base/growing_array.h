@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <new>
@@ -22,9 +21,6 @@ class GrowingArray {
 
  public:
   GrowingArray() = default;
-  GrowingArray(std::initializer_list<T> values) {
-    for (const T& value : values) push_back(value);
-  }
   GrowingArray(const GrowingArray& other) { *this = other; }
   GrowingArray(GrowingArray&& other) noexcept { swap(other); }
   GrowingArray& operator=(const GrowingArray& other) {
@@ -80,7 +76,6 @@ class GrowingArray {
   void shrink_to_fit() {
     if (size_ < capacity_) static_cast<void>(move_to(size_));
   }
-  void clear() { size_ = 0; }
   bool operator==(const GrowingArray& other) const {
     return std::equal(begin(), end(), other.begin(), other.end());
   }

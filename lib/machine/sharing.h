@@ -65,13 +65,7 @@ void share(Comm& comm, size_t count, const OwnerOf& owner_of, const Write& write
     if (owner_of(k) != comm.rank()) read(k, from[static_cast<size_t>(owner_of(k))]);
 }
 
-// The same of values, and of lists of values.
-template <class T, class OwnerOf>
-void share_values(Comm& comm, std::vector<T>& values, const OwnerOf& owner_of) {
-  share(
-      comm, values.size(), owner_of, [&](size_t k, Bytes& bytes) { put(bytes, &values[k], 1); },
-      [&](size_t k, Taker& taker) { taker.take(&values[k], 1); });
-}
+// The same of lists of values.
 template <class T, class OwnerOf>
 void share_lists(Comm& comm, std::vector<std::vector<T>>& lists, const OwnerOf& owner_of) {
   share(
@@ -138,11 +132,6 @@ void send_to_owners(Comm& comm, std::vector<T>& values, const OwnerOf& owner_of)
 // Of tasks that belong to nobody each process takes its turn.
 inline bool is_my_turn(const Comm& comm, size_t task) {
   return task % static_cast<size_t>(comm.size()) == static_cast<size_t>(comm.rank());
-}
-template <class T>
-void share_turns(Comm& comm, std::vector<T>& values) {
-  share_values(comm, values,
-               [&](size_t k) { return static_cast<int>(k % static_cast<size_t>(comm.size())); });
 }
 
 }  // namespace hrad

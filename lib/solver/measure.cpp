@@ -182,7 +182,7 @@ class Measurement {
         [&](int64_t done) { return progress(static_cast<double>(done) / tasks); });
     if (!tools_.exchange.all_go_on(going_on)) return false;
     for (const Residual& r : measured) rays_sent_ += r.rays;
-    tools_.exchange.share_turns(measured);
+    tools_.exchange.share_turns(measured, tools_.team);
     for (size_t k = 0; k < measured.size(); ++k)
       residuals_[first + place_of(part, k)] = measured[k];
     return true;

@@ -115,7 +115,7 @@ std::optional<PowerBalance> measure_balance(const State& state, const StageTools
   });
   if (!tools.exchange.all_go_on(going_on)) return std::nullopt;
   for (const Sums& s : sums) balance.rays += s.rays;
-  tools.exchange.share_turns(sums);
+  tools.exchange.share_turns(sums, tools.team);
   int64_t rays = 0, back_rays = 0;
   for (const Sums& s : sums) {
     rays += s.rays;

@@ -47,7 +47,7 @@ class Exchange {
   // values[k] belongs to surface_of(k): each owner gives its own, and has all of them afterwards.
   template <class T, class SurfaceOf>
   void share(std::vector<T>& values, const SurfaceOf& surface_of) const {
-    share_values(comm_, values, [&](size_t k) { return owner_[surface_of(k)]; });
+    share_rows(values, 1, surface_of);
   }
   // The same of rows of so many values.
   template <class T, class SurfaceOf>
@@ -84,11 +84,7 @@ class Exchange {
   void send_to_owners(std::vector<T>& values, const SurfaceOf& surface_of) const {
     hrad::send_to_owners(comm_, values, [&](const T& value) { return owner_[surface_of(value)]; });
   }
-  // values[k] where each took its turn; by a team, too.
-  template <class T>
-  void share_turns(std::vector<T>& values) const {
-    hrad::share_turns(comm_, values);
-  }
+  // values[k] where each took its turn.
   template <class T>
   void share_turns(std::vector<T>& values, ThreadTeam& team) const {
     share_rows_of(comm_, team, values, 1, [&](size_t k) {

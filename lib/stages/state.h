@@ -52,7 +52,7 @@ struct State {
   // Room for the light of all nodes; that of new ones is 0.
   void resize_light() {
     const size_t values = forest.nodes.size() * static_cast<size_t>(bands);
-    irradiance.reserve(values);  // no more: these are exactly as large as the nodes are many
+    irradiance.reserve(values);  // not an eighth more, as it may be
     irradiance.resize(values);
     radiosity.reserve(values + floats_beyond);
     radiosity.resize(values);

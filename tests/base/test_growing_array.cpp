@@ -64,7 +64,7 @@ void it_is_like_a_vector() {
     vector.push_back(vector.front());
     check_same(array, vector);
   }
-  array.clear();
+  array.resize(0);
   check_same(array, {});
   array.shrink_to_fit();
   CHECK_EQUAL(array.capacity(), 0u);

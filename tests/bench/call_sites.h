@@ -156,14 +156,14 @@ class CallSites {
                               "hrad::api::", "std::", "__", "exchanging", "operator()", "clone"})
       if (frame.function.compare(0, std::strlen(start), start) == 0) return true;
     for (const char* name :
-         {"hrad::share", "hrad::share_values", "hrad::share_lists", "hrad::share_turns",
+         {"hrad::share", "hrad::share_rows", "hrad::share_rows_of", "hrad::share_lists",
           "hrad::unite", "hrad::Exchange::share", "hrad::Exchange::share_lists",
           "hrad::Exchange::share_rows", "hrad::Exchange::share_turns", "hrad::Exchange::unite",
           "hrad::Exchange::all_go_on"})
       if (frame.function == name) return true;
     for (const char* place :
-         {"recorder.h", "thread_team.cpp", "sharing.h", "comm.cpp", "exchange.h", "std_function.h",
-          "invoke.h", "recorded_solve.h", "bench_hybrid.cpp"})
+         {"recorder.h", "thread_team.cpp", "sharing.h", "comm.cpp", "exchange.h", "shared_rows.h",
+          "std_function.h", "invoke.h", "recorded_solve.h", "bench_hybrid.cpp"})
       if (frame.place.compare(0, std::strlen(place), place) == 0) return true;
     return false;
   }

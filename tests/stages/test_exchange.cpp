@@ -17,6 +17,12 @@ constexpr int ranks = 3;
 
 int32_t owner_of(NodeId surface) { return surface % ranks; }
 
+std::vector<int32_t> owners_of(const State& state) {
+  std::vector<int32_t> owners;
+  for (NodeId k = 0; k < state.forest.surface_count(); ++k) owners.push_back(owner_of(k));
+  return owners;
+}
+
 // The first root of each rank is linked to these.
 void link_to(State& state, int rank, const std::vector<NodeId>& sources) {
   std::vector<Link> links;
@@ -34,16 +40,13 @@ void elements_are_asked_for_once() {
     State state(scene);
     ThreadTeam team(2);
     const int rank = comm.rank();
-    const auto surfaces = static_cast<NodeId>(state.forest.surface_count());
-    std::vector<int32_t> owner;
-    for (NodeId k = 0; k < surfaces; ++k) owner.push_back(owner_of(k));
     split_all(state.forest, 1);
     state.resize_light();
     // The children of surface k, which know whose they are.
     const auto child = [&](NodeId surface, int k) {
       return state.forest.nodes[surface].first_child + k;
     };
-    Exchange exchange(comm, owner);
+    Exchange exchange(comm, owners_of(state));
     const NodeId next = (rank + 1) % ranks, last = (rank + 2) % ranks;
     const auto ask = [&](int turn) {
       exchange.ask_for_sources(state, team);
@@ -96,12 +99,9 @@ void what_needs_no_message_does_not_wait() {
   on_ranks(ranks, [&](Comm& comm) {
     State state(scene);
     ThreadTeam team(2);
-    std::vector<int32_t> owner;
-    for (NodeId k = 0; k < static_cast<NodeId>(state.forest.surface_count()); ++k)
-      owner.push_back(owner_of(k));
     split_all(state.forest, 1);
     state.resize_light();
-    Exchange exchange(comm, owner);
+    Exchange exchange(comm, owners_of(state));
     const NodeId here = comm.rank(), waiting = here + ranks, next = (here + 1) % ranks;
     const Link own{state.forest.nodes[here].first_child, 0.5f};
     const Link of_next{state.forest.nodes[next].first_child, 0.25f};
@@ -159,9 +159,7 @@ void roots_are_shared() {
   std::vector<uint8_t> right(ranks, 0);
   on_ranks(ranks, [&](Comm& comm) {
     State state(scene);
-    std::vector<int32_t> owner;
-    const auto surfaces = static_cast<NodeId>(state.forest.surface_count());
-    for (NodeId k = 0; k < surfaces; ++k) owner.push_back(owner_of(k));
+    const std::vector<int32_t> owner = owners_of(state);
     Exchange exchange(comm, owner);
     state.resize_light();
     const size_t bands = static_cast<size_t>(state.bands);
@@ -194,10 +192,8 @@ void roots_of_clusters_are_shared() {
     for (NodeId k = 0; k < in_clusters; ++k)
       items.push_back({k, state.forest.root_triangle(k).centroid(), 0.1});
     add_clusters(state.forest, items);
-    std::vector<int32_t> owner;
     const auto surfaces = static_cast<NodeId>(state.forest.surface_count());
-    for (NodeId k = 0; k < surfaces; ++k) owner.push_back(owner_of(k));
-    Exchange exchange(comm, owner);
+    Exchange exchange(comm, owners_of(state));
     state.resize_light();
     const size_t bands = static_cast<size_t>(state.bands);
     for (NodeId k = 0; k < surfaces; ++k)
