@@ -60,7 +60,8 @@ class Builder {
                                          : static_cast<NodeId>(forest_.surface_count()) + number;
       if (piece.parent >= 0) {
         tree_.clusters[piece.parent].child[piece.slot] = id;
-        forest_.nodes[id].parent = static_cast<NodeId>(forest_.surface_count()) + piece.parent;
+        forest_.nodes.set_parent_of_top(
+            id, static_cast<NodeId>(forest_.surface_count()) + piece.parent);
       }
       if (piece.count == 1) continue;
       const Cluster cluster = bounds_of(piece);
@@ -181,11 +182,7 @@ void add_clusters(Forest& forest) {
 
 void add_clusters(Forest& forest, const std::vector<ClusterItem>& items) {
   if (items.size() < 2) return;
-  for (int32_t c = 0; c < static_cast<int32_t>(items.size()) - 1; ++c) {
-    Node node;
-    node.surface = -1 - c;
-    forest.nodes.push_back(node);
-  }
+  forest.nodes.add_clusters(items.size() - 1);
   Builder builder(forest, items);
   builder.build();
   builder.measure_again();
@@ -207,7 +204,7 @@ void measure_clusters(Forest& forest) {
   for (Cluster& c : tree.clusters)
     c.area = tree.area_before[c.first + c.count] - tree.area_before[c.first];
   for (size_t c = 0; c < tree.clusters.size(); ++c)
-    forest.nodes[forest.surface_count() + c].exposed = tree.clusters[c].area > 0 ? 1.0f : 0.0f;
+    forest.nodes.set_exposed(forest.surface_count() + c, tree.clusters[c].area > 0 ? 1.0f : 0.0f);
 }
 
 }  // namespace hrad

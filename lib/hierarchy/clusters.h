@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "hierarchy/node.h"
 
 namespace hrad {
-
-using NodeId = int32_t;
 
 // Light is not taken to leave a cluster, or to arrive on it, as on one surface when its normals
 // spread wider than this: rad from the mean one.

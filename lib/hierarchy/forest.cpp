@@ -1,47 +1,9 @@
 // Roots, lattice places and geometry of the elements. Floor 5 (hierarchy).
 #include "hierarchy/forest.h"
 
-#include <limits>
 #include <utility>
 
-#include "base/error.h"
-
 namespace hrad {
-
-Node child_place(const Node& parent, int child) {
-  Node node;
-  node.surface = parent.surface;
-  node.level = static_cast<uint8_t>(parent.level + 1);
-  node.exposed = parent.exposed;
-  const int i = 2 * parent.i, j = 2 * parent.j;
-  if (!parent.inverted) {
-    node.i = static_cast<uint16_t>(i + (child == 1));
-    node.j = static_cast<uint16_t>(j + (child == 2));
-    node.inverted = child == 3;
-  } else {
-    // The corners in order are (i+1,j+1), (i,j+1), (i+1,j); the one in the middle stands upright.
-    node.i = static_cast<uint16_t>(i + (child != 1));
-    node.j = static_cast<uint16_t>(j + (child != 2));
-    node.inverted = child != 3;
-  }
-  return node;
-}
-
-void require_numbers(size_t nodes) {
-  if (nodes > static_cast<size_t>(std::numeric_limits<NodeId>::max()))
-    fail(Status::memory,
-         "%zu elements are more than there are numbers for: use a larger accuracy or min_area",
-         nodes);
-}
-
-void place_children(GrowingArray<Node>& nodes, NodeId parent, NodeId first) {
-  for (int child = 0; child < 4; ++child) {
-    Node& node = nodes[static_cast<size_t>(first + child)];
-    node = child_place(nodes[static_cast<size_t>(parent)], child);
-    node.parent = parent;
-  }
-  nodes[static_cast<size_t>(parent)].first_child = first;
-}
 
 Forest::Forest(const Scene& s) : scene(&s), first_surface_(s.patch_count(), -1) {
   for (int64_t patch = 0; patch < s.patch_count(); ++patch) {
@@ -58,8 +20,7 @@ Forest::Forest(const Scene& s) : scene(&s), first_surface_(s.patch_count(), -1) 
     surface.normal = -surface.normal;
     surfaces.push_back(surface);
   }
-  nodes.resize(surfaces.size());
-  for (size_t k = 0; k < surfaces.size(); ++k) nodes[k].surface = static_cast<int32_t>(k);
+  nodes = NodeArray(surfaces.size());
 }
 
 Triangle Forest::root_triangle(int32_t surface) const {
@@ -87,17 +48,16 @@ NodeId Forest::root(int64_t patch, int32_t side) const {
   return scene->has(patch, patch_two_sided) ? first + 1 : -1;
 }
 
+// The places are found on the way down: a look at a stem a level is all that memory has to serve.
 NodeId Forest::leaf_at(NodeId root, double u, double v) const {
+  LatticePlace place;
   NodeId id = root;
-  while (!is_leaf(id)) id = child_at(nodes[id], u, v);
+  for (NodeId first; (first = nodes.first_child(id)) >= 0;) {
+    const int part = part_at(place, u, v);
+    place = part_of(place, part);
+    id = first + part;
+  }
   return id;
-}
-
-// The child that holds a point of the root triangle.
-NodeId Forest::child_at(const Node& node, double u, double v) const {
-  double x, y;
-  element_coordinates(node, u, v, &x, &y);
-  return node.first_child + (x > 0.5 ? 1 : y > 0.5 ? 2 : x + y < 0.5 ? 0 : 3);
 }
 
 NodeId Forest::root_met(const Hit& hit) const {
@@ -112,10 +72,11 @@ NodeId Forest::leaf_met(const Hit& hit) const {
 
 void Forest::leaves_met(Span<const Hit> hits, NodeId* leaves) const {
   size_t going_down[most_met], count = 0;
+  LatticePlace place[most_met];
   for (size_t k = 0; k < hits.size(); ++k) {
     leaves[k] = root_met(hits[k]);
     if (leaves[k] < 0) continue;
-    __builtin_prefetch(&nodes[leaves[k]]);
+    nodes.prefetch(leaves[k]);
     going_down[count++] = k;
   }
   // All of them by one level.
@@ -123,11 +84,13 @@ void Forest::leaves_met(Span<const Hit> hits, NodeId* leaves) const {
     size_t left = 0;
     for (size_t at = 0; at < count; ++at) {
       const size_t k = going_down[at];
-      const Node& node = nodes[leaves[k]];
-      if (node.first_child < 0) continue;
+      const NodeId first = nodes.first_child(leaves[k]);
+      if (first < 0) continue;
       const Hit& hit = hits[k];
-      leaves[k] = hit.back ? child_at(node, hit.v, hit.u) : child_at(node, hit.u, hit.v);
-      __builtin_prefetch(&nodes[leaves[k]]);
+      const int part = hit.back ? part_at(place[k], hit.v, hit.u) : part_at(place[k], hit.u, hit.v);
+      place[k] = part_of(place[k], part);
+      leaves[k] = first + part;
+      nodes.prefetch(leaves[k]);
       going_down[left++] = k;
     }
     count = left;
@@ -143,7 +106,7 @@ double Forest::total_area() const {
 std::vector<NodeId> Forest::leaves() const {
   std::vector<NodeId> result, stack;
   size_t count = 0;
-  for (const Node& node : nodes) count += node.first_child < 0;
+  for (size_t k = 0; k < nodes.size(); ++k) count += nodes.first_child(k) < 0;
   result.reserve(count);
   for (NodeId root = 0; root < surface_count(); ++root) {
     stack.push_back(root);
@@ -154,7 +117,7 @@ std::vector<NodeId> Forest::leaves() const {
         result.push_back(id);
         continue;
       }
-      for (int child = 3; child >= 0; --child) stack.push_back(nodes[id].first_child + child);
+      for (int child = 3; child >= 0; --child) stack.push_back(nodes.first_child(id) + child);
     }
   }
   return result;

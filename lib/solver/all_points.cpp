@@ -48,10 +48,11 @@ AllPoints::AllPoints(State& state, const Exchange& exchange) {
   exchange.share(
       told, [&](size_t k) { return Exchange::surface_of(state.forest, static_cast<NodeId>(k)); });
   for (size_t k = 0; k < told.size(); ++k) {
-    Node& node = state.forest.nodes[k];
+    NodeArray& nodes = state.forest.nodes;
     const int32_t owner =
         exchange.owner(Exchange::surface_of(state.forest, static_cast<NodeId>(k)));
-    if (!Forest::is_cluster(node)) node.light_points = told[k].light_points;
+    if (!Forest::is_cluster(nodes[k]))
+      nodes.set_light_points(k, static_cast<LightPoints>(told[k].light_points));
     for (int count = 0; count < told[k].new_points; ++count) {
       points_.add(owner, exchange.is_me(owner));
       if (told[k].are_own) own_points_.add(owner, exchange.is_me(owner));

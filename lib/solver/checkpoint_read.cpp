@@ -87,12 +87,8 @@ class Reading {
 
   void read_hierarchy(State& state) {
     Forest& forest = state.forest;
+    forest.nodes.add_clusters(static_cast<size_t>(sizes_.clusters));
     forest.nodes.reserve(static_cast<size_t>(sizes_.nodes()));
-    for (int64_t c = 0; c < sizes_.clusters; ++c) {
-      Node node;
-      node.surface = static_cast<int32_t>(-1 - c);
-      forest.nodes.push_back(node);
-    }
     forest.clusters.clusters.resize(static_cast<size_t>(sizes_.clusters));
     source_.read(Section::tree, sizes_.families,
                  [&](int64_t first, int64_t end, PackedReader& bytes) {

@@ -124,7 +124,7 @@ CheckpointSizes unpack_sizes(PackedReader& bytes, const CheckpointSource& source
 int64_t bytes_of(const CheckpointSizes& s) {
   const int64_t of_patch = 3 * 4 + 4 + 8 + 1 + 16 * s.bands;
   const int64_t of_node =
-      static_cast<int64_t>(sizeof(Node)) + LinkTable::most_bytes_of_a_receiver + 16 * s.bands;
+      NodeArray::most_bytes_of_a_node + LinkTable::most_bytes_of_a_receiver + 16 * s.bands;
   return 24 * s.vertices + of_patch * s.patches + of_node * s.nodes() +
          static_cast<int64_t>(sizeof(Cluster)) * s.clusters +
          LinkTable::most_bytes_of_a_receiver * s.receivers_of_means + 12 * s.leaves_of_points +

@@ -6,10 +6,6 @@
 namespace hrad {
 namespace {
 
-int64_t first_element(const Forest& forest) {
-  return forest.surface_count() + static_cast<int64_t>(forest.clusters.clusters.size());
-}
-
 // What a node's exposure is told from: its parent's.
 float expected_exposure(const Forest& forest, int64_t node) {
   const Node& n = forest.nodes[static_cast<size_t>(node)];
@@ -28,7 +24,7 @@ std::vector<double> present_areas(const Forest& forest) {
 }  // namespace
 
 void pack_families(const Forest& forest, int64_t first, int64_t end, PackedBytes& bytes) {
-  const int64_t base = first_element(forest);
+  const int64_t base = static_cast<int64_t>(forest.nodes.first_element());
   int64_t before = 0;
   for (int64_t family = first; family < end; ++family) {
     const int64_t parent = forest.nodes[static_cast<size_t>(base + 4 * family)].parent;
@@ -50,7 +46,7 @@ void unpack_families(PackedReader& bytes, int64_t first, int64_t end, Forest& fo
                   : above.first_child >= 0  ? "has four already"
                                             : "is as small as elements can be");
     forest.nodes.resize(forest.nodes.size() + 4);
-    place_children(forest.nodes, static_cast<NodeId>(parent), child);
+    forest.nodes.adopt(static_cast<NodeId>(parent), child);
   }
 }
 
@@ -70,7 +66,7 @@ void unpack_nodes(PackedReader& bytes, int64_t first, int64_t end, Forest& fores
     if (points > at_own_points)
       fail_format(bytes.place(), "node %lld has its light at places of kind %d",
                   static_cast<long long>(k), points);
-    forest.nodes[static_cast<size_t>(k)].light_points = points;
+    forest.nodes.set_light_points(static_cast<size_t>(k), static_cast<LightPoints>(points));
   }
   std::vector<uint32_t> changes;
   bytes.planes(static_cast<size_t>(end - first), changes);
@@ -81,7 +77,7 @@ void unpack_nodes(PackedReader& bytes, int64_t first, int64_t end, Forest& fores
     if (!(exposed >= 0 && exposed <= 1))
       fail_format(bytes.place(), "the exposed share of node %lld is %g: it must be from 0 to 1",
                   static_cast<long long>(k), static_cast<double>(exposed));
-    forest.nodes[static_cast<size_t>(k)].exposed = exposed;
+    forest.nodes.set_exposed(static_cast<size_t>(k), exposed);
   }
 }
 

@@ -19,7 +19,7 @@ bool take_share(KnownResult& known, float& share) {
 }  // namespace
 
 bool measure_exposure(State& state, const StageTools& tools, const std::vector<NodeId>& elements) {
-  GrowingArray<Node>& nodes = state.forest.nodes;
+  NodeArray& nodes = state.forest.nodes;
   const LinkSampler sampler(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                             tools.oracle.near_ratio);
   const auto can_be_sealed = [&](NodeId id) {
@@ -47,10 +47,10 @@ bool measure_exposure(State& state, const StageTools& tools, const std::vector<N
   if (!tools.exchange.all_go_on(going_on)) return false;
   tools.exchange.share_turns(exposed, tools.team);
   for_each_thing(tools.team, elements.size(), [&](size_t k) {
-    if (!can_be_sealed(elements[k])) nodes[elements[k]].exposed = 1;
+    if (!can_be_sealed(elements[k])) nodes.set_exposed(elements[k], 1);
   });
   for_each_thing(tools.team, exposed.size(),
-                 [&](size_t k) { nodes[looked_at[k]].exposed = exposed[k]; });
+                 [&](size_t k) { nodes.set_exposed(looked_at[k], exposed[k]); });
   return true;
 }
 

@@ -149,8 +149,8 @@ void LeafLight::take_own_points(const std::vector<NodeId>& leaves) {
   std::vector<Found> found(leaves.size());
   tools_.team.for_each(static_cast<int64_t>(leaves.size()), [&](int64_t task, int) {
     const size_t k = static_cast<size_t>(task);
-    Node& node = forest_.nodes[leaves[k]];
-    node.light_points = at_own_points;
+    const Node node = forest_.nodes[leaves[k]];
+    forest_.nodes.set_light_points(leaves[k], at_own_points);
     LatticePoint corner[3];
     lattice_corners(node, corner);
     found[k].any = corners_.points_of_exposed(leaves[k], corner, found[k].place);

@@ -38,7 +38,7 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
                                  ThreadTeam& team) {
   constexpr size_t tasks_of_a_step = 64;
   const size_t bands = static_cast<size_t>(state.bands);
-  GrowingArray<Node>& nodes = state.forest.nodes;
+  NodeArray& nodes = state.forest.nodes;
   std::vector<NodeId> first;
   size_t count = nodes.size();
   for (const std::vector<NewFamily>& of_task : families) {
@@ -54,10 +54,10 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
       const NodeId parent = family.parent == NewFamily::root_of_task ? roots[task]
                             : family.parent >= 0                     ? family.parent
                                                  : first[task] - 1 - family.parent;
-      place_children(nodes, parent, next);
+      nodes.adopt(parent, next);
       for (int child = 0; child < 4; ++child) {
         const size_t id = static_cast<size_t>(next + child);
-        nodes[id].exposed = family.exposed[child];
+        nodes.set_exposed(id, family.exposed[child]);
         for (auto* light : {&state.radiosity, &state.irradiance})
           std::copy_n(light->begin() + static_cast<std::ptrdiff_t>(parent * bands), bands,
                       light->begin() + static_cast<std::ptrdiff_t>(id * bands));
@@ -75,9 +75,9 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
 }
 
 void drop_elements(State& state, size_t first) {
-  GrowingArray<Node>& nodes = state.forest.nodes;
-  for (size_t k = first; k < nodes.size(); ++k)
-    nodes[static_cast<size_t>(nodes[k].parent)].first_child = -1;
+  NodeArray& nodes = state.forest.nodes;
+  for (size_t k = first; k < nodes.size(); k += 4)
+    nodes.lose_children(static_cast<size_t>(nodes[k].parent));
   nodes.resize(first);
   state.resize_light();
   state.links.resize(first);

@@ -25,15 +25,16 @@ OwnRuns::Runs waiting(const LinkTable& table, size_t number, const Exchange& exc
 OwnRuns::OwnRuns(const State& state, const Exchange& exchange, ThreadTeam& team) {
   if (exchange.alone()) return;
   all_ = false;
-  const GrowingArray<Node>& nodes = state.forest.nodes;
+  const NodeArray& nodes = state.forest.nodes;
   constexpr size_t of_a_block = LinkTable::receivers_of_a_block;
   std::vector<uint8_t> is_own(pieces_of(nodes.size(), of_a_block), 0);
   for_each_piece(
       team, nodes.size(),
       [&](size_t block, size_t begin, size_t end) {
-        is_own[block] = std::any_of(&nodes[begin], nodes.data() + end, [&](const Node& node) {
-          return Forest::is_cluster(node) || exchange.mine(node.surface);
-        });
+        for (size_t k = begin; k < end && !is_own[block]; ++k) {
+          const Node node = nodes[k];
+          is_own[block] = Forest::is_cluster(node) || exchange.mine(node.surface);
+        }
       },
       of_a_block);
   for (size_t block = 0; block < is_own.size(); ++block)

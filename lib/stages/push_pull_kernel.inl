@@ -6,7 +6,7 @@ template <int Lanes>
 class TreeSweep {
  public:
   TreeSweep(const PushPullRoots& all, int first_band)
-      : nodes_(all.nodes),
+      : nodes_(*all.nodes),
         bands_(static_cast<size_t>(all.bands)),
         emission_of_patch_(all.emission + first_band),
         reflectance_of_patch_(all.reflectance + first_band),
@@ -18,43 +18,41 @@ class TreeSweep {
     const size_t of_patch = static_cast<size_t>(patch) * bands_;
     take_some<Lanes>(emission_of_patch_ + of_patch, emission_);
     take_some<Lanes>(reflectance_of_patch_ + of_patch, reflectance_);
-    const Node& node = nodes_[root];
+    const NodeId cluster = nodes_[root].parent;
     FourDoubles from_above = {};
-    if (node.parent >= 0) widen_some<Lanes>(irradiance_ + at(node.parent), from_above);
+    if (cluster >= 0) widen_some<Lanes>(irradiance_ + at(cluster), from_above);
     double weight = 0;
-    go(root, node, from_above, sum, weight);
+    go(root, from_above, sum, weight);
   }
 
  private:
   // Adds irradiance times exposed share, and that share, as means over the node's area, to `sum`
   // and `weight`.
-  void go(NodeId id, const Node& node, const FourDoubles& from_above, FourDoubles& sum,
-          double& weight) {
-    if (node.first_child < 0)
-      at_leaf(id, node, from_above, sum, weight);
+  void go(NodeId id, const FourDoubles& from_above, FourDoubles& sum, double& weight) {
+    const NodeId first = nodes_.first_child(id);
+    if (first < 0)
+      at_leaf(id, from_above, sum, weight);
     else
-      below(id, node, from_above, sum, weight);
+      below(id, first, from_above, sum, weight);
   }
-  void at_leaf(NodeId id, const Node& node, const FourDoubles& from_above, FourDoubles& sum,
-               double& weight) {
+  void at_leaf(NodeId id, const FourDoubles& from_above, FourDoubles& sum, double& weight) {
     FourDoubles down;
     widen_some<Lanes>(irradiance_ + at(id), down);
     down += from_above;
-    const double exposed = node.exposed;
+    const double exposed = nodes_.exposed(id);
     const FourDoubles nothing = {};
     write(id, exposed > 0 ? down : nothing, down);
     sum += exposed * down;
     weight += exposed;
   }
-  void below(NodeId id, const Node& node, const FourDoubles& from_above, FourDoubles& sum,
+  void below(NodeId id, NodeId first, const FourDoubles& from_above, FourDoubles& sum,
              double& weight) {
     FourDoubles down;
     widen_some<Lanes>(irradiance_ + at(id), down);
     down += from_above;
     FourDoubles pulled = {};
     double exposed = 0;
-    for (NodeId child = node.first_child; child < node.first_child + 4; ++child)
-      go(child, nodes_[child], down, pulled, exposed);
+    for (NodeId child = first; child < first + 4; ++child) go(child, down, pulled, exposed);
     sum += pulled / 4.0;
     const FourDoubles nothing = {};
     write(id, exposed > 0 ? pulled / exposed : nothing, pulled);
@@ -72,7 +70,7 @@ class TreeSweep {
     std::memcpy(radiosity_ + at(id), &single, Lanes * sizeof(float));
   }
 
-  const Node* const nodes_;
+  const NodeArray& nodes_;
   const size_t bands_;
   const double *const emission_of_patch_, *const reflectance_of_patch_;
   float *const irradiance_, *const radiosity_;

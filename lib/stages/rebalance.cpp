@@ -37,7 +37,7 @@ std::vector<int32_t> owners_by(const State& state, const std::vector<double>& wo
 // Runs of elements whose surface has another owner now.
 void move_links(State& state, ThreadTeam& team, Exchange& exchange, std::vector<int32_t> owners) {
   Comm& comm = exchange.comm();
-  const GrowingArray<Node>& nodes = state.forest.nodes;
+  const NodeArray& nodes = state.forest.nodes;
   std::vector<Bytes> to(static_cast<size_t>(comm.size()));
   std::vector<LinkTable::NewRun> runs;
   for (size_t k = 0; k < nodes.size(); ++k) {

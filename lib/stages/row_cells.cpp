@@ -33,9 +33,9 @@ double square_of_longest_edge(const Triangle& t) {
 NodeId RowMesh::add_children(const std::vector<NodeId>& parents) {
   const size_t first = forest_.nodes.size();
   require_numbers(first + 4 * parents.size());
-  forest_.nodes.resize_for_overwrite(first + 4 * parents.size());
+  forest_.nodes.resize(first + 4 * parents.size());
   for_each_thing(tools_.team, parents.size(), [&](size_t k) {
-    place_children(forest_.nodes, parents[k], static_cast<NodeId>(first + 4 * k));
+    forest_.nodes.adopt(parents[k], static_cast<NodeId>(first + 4 * k));
   });
   return static_cast<NodeId>(first);
 }
@@ -137,7 +137,7 @@ void RowMesh::divide_leaves(const std::vector<NodeId>& leaves) {
         if (forest_.nodes[leaves[k]].light_points == half_way_to_the_middle) {
           const NodeId child = first + 4 * static_cast<NodeId>(k);
           for (NodeId id = child; id < child + 4; ++id) {
-            forest_.nodes[id].light_points = half_way_to_the_middle;
+            forest_.nodes.set_light_points(id, half_way_to_the_middle);
             wanted.push_back({id, PointsOf::half_way_to_the_middle});
           }
         } else {

@@ -130,7 +130,7 @@ bool RowMesh::keep_small_patches(std::vector<NodeId>& open) {
   std::vector<NodeId> rest;
   for (size_t k = 0; k < open.size(); ++k) {
     if (kept[k])
-      forest_.nodes[open[k]].light_points = half_way_to_the_middle;
+      forest_.nodes.set_light_points(open[k], half_way_to_the_middle);
     else
       rest.push_back(open[k]);
   }

@@ -173,7 +173,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
     clear(state);
     tools.exchange.forget();
     for (size_t root = 0; root < exposed.size(); ++root)
-      state.forest.nodes[root].exposed = exposed[root];
+      state.forest.nodes.set_exposed(root, exposed[root]);
     outcome = link_rows_once(state, tools.of_part(done, 1), settings, share);
   }
   return outcome == Outcome::done;

@@ -12,7 +12,7 @@ int64_t bytes_of_nodes(const State& state) {
   const CornerLight& direct = state.direct;
   const ClusterTree& tree = state.forest.clusters;
   return bytes_in(tree.clusters) + bytes_in(tree.order) + bytes_in(tree.area_before) +
-         bytes_in(state.forest.nodes) + bytes_in(state.radiosity) + bytes_in(state.irradiance) +
+         state.forest.nodes.bytes() + bytes_in(state.radiosity) + bytes_in(state.irradiance) +
          state.links.bytes() - state.links.bytes_of_links() + bytes_in(state.cells) +
          direct.mean.bytes() - direct.mean.bytes_of_links() + direct.of_leaf.bytes() +
          bytes_in(direct.first) + state.journal.bytes();

@@ -62,10 +62,10 @@ std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exch
     double rows[surfaces_of_a_task * most_bands];
     const NodeId* roots = &own[static_cast<size_t>(task) * of_a_task];
     const size_t count = std::min<size_t>(of_a_task, own.data() + own.size() - roots);
-    push_pull({forest.nodes.data(), forest.surfaces.data(), roots, count, state.bands,
-               scene.emission.data(), scene.reflectance.data(), state.irradiance.data(),
-               state.radiosity.data()},
-              rows);
+    push_pull(
+        {&forest.nodes, forest.surfaces.data(), roots, count, state.bands, scene.emission.data(),
+         scene.reflectance.data(), state.irradiance.data(), state.radiosity.data()},
+        rows);
     std::vector<ExactSum>& sums = of_thread[static_cast<size_t>(thread)];
     const double* value = rows;
     for (size_t k = 0; k < count; ++k)
@@ -93,13 +93,13 @@ void visit_leaves(const Forest& forest, NodeId id, F&& f) {
   for (int child = 0; child < 4; ++child) visit_leaves(forest, node.first_child + child, f);
 }
 
-float pull_exposure_below(GrowingArray<Node>& nodes, NodeId id) {
-  Node& node = nodes[id];
-  if (node.first_child < 0) return node.exposed;
+float pull_exposure_below(NodeArray& nodes, NodeId id) {
+  const NodeId first = nodes.first_child(id);
+  if (first < 0) return nodes.exposed(id);
   float sum = 0;
-  for (int child = 0; child < 4; ++child)
-    sum += pull_exposure_below(nodes, node.first_child + child);
-  return node.exposed = sum / 4;
+  for (int child = 0; child < 4; ++child) sum += pull_exposure_below(nodes, first + child);
+  nodes.set_exposed(id, sum / 4);
+  return sum / 4;
 }
 
 float brightness_of(const float* radiosity, const std::vector<double>& unit) {

@@ -24,7 +24,7 @@ using GatherRuns = void (*)(const Link* links, uint32_t all, uint32_t first, con
 
 // The trees of some surfaces.
 struct PushPullRoots {
-  const Node* nodes;
+  const NodeArray* nodes;
   const Surface* surfaces;
   const NodeId* roots;
   size_t count;  // of roots

@@ -67,6 +67,16 @@ class Plain {
     add(std::string(reinterpret_cast<const char*>(array.data()),
                     array.size() * sizeof *array.data()));
   }
+  // Less the places of families, which follow from their parents.
+  void add(const hrad::NodeArray& nodes) {
+    std::string bytes(reinterpret_cast<const char*>(nodes.stems()),
+                      nodes.size() * sizeof(hrad::Stem));
+    for (size_t k = nodes.first_element(); k < nodes.size(); k += 4) {
+      const hrad::NodeId parent = nodes[k].parent;
+      bytes.append(reinterpret_cast<const char*>(&parent), sizeof parent);
+    }
+    add(bytes);
+  }
   void add(const hrad::LinkTable& table) {
     std::string bytes;
     for (size_t k = 0; k < table.size(); ++k) {

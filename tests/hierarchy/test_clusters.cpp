@@ -55,11 +55,9 @@ void a_tree_is_restored_bit_by_bit() {
   for (const char* name : names) {
     const Clustered c(builtin_scene(name));
     Forest again(c.scene);
+    again.nodes.add_clusters(c.forest.clusters.clusters.size());
     std::vector<int32_t> left;
     for (const Cluster& cluster : c.forest.clusters.clusters) {
-      Node node;
-      node.surface = -1 - static_cast<int32_t>(left.size());
-      again.nodes.push_back(node);
       const Node& first = c.forest.nodes[cluster.child[0]];
       left.push_back(Forest::is_cluster(first) ? c.forest.cluster(first).count : 1);
     }
@@ -199,7 +197,7 @@ void areas_are_those_of_the_exposed_parts() {
   Clustered c(builtin_scene("cornell"));
   Forest& forest = c.forest;
   for (NodeId root = 0; root < forest.surface_count(); ++root)
-    forest.nodes[root].exposed = root % 3 == 0 ? 0.0f : 0.5f;
+    forest.nodes.set_exposed(root, root % 3 == 0 ? 0.0f : 0.5f);
   measure_clusters(forest);
   for (const Cluster& cluster : forest.clusters.clusters) {
     double area = 0;

@@ -23,7 +23,7 @@ inline void open(LightGrid& grid, const std::vector<OrientedPoint>& points, Work
 
 inline State& with_exposed_shares(Workbench& bench) {
   const LinkSampler sampler = bench.sampler();
-  for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
+  set_exposed_shares(bench.state.forest, sampler);
   return bench.state;
 }
 

@@ -268,8 +268,8 @@ void sealed_parts_see_nothing() {
   LinkSampler sampler = bench.sampler();
   std::vector<NodeId> floor, ceiling;
   for (NodeId root = 0; root < forest.surface_count(); ++root) {
-    Node& node = forest.nodes[root];
-    node.exposed = sampler.exposed_share(node);
+    forest.nodes.set_exposed(root, sampler.exposed_share(forest.nodes[root]));
+    const Node node = forest.nodes[root];
     if (lies_at(bench, node, 0, 1)) floor.push_back(root);
     if (lies_at(bench, node, 2, -1)) ceiling.push_back(root);
   }

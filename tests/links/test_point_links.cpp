@@ -59,7 +59,7 @@ double opposite_squares(double h) {
 struct Prepared : Workbench {
   explicit Prepared(Scene s) : Workbench(std::move(s)) {
     const LinkSampler measure = sampler();
-    for (Node& node : state.forest.nodes) node.exposed = measure.exposed_share(node);
+    set_exposed_shares(state.forest, measure);
     add_clusters(state.forest);
   }
   Element end(NodeId id) const { return element_of(state.forest, state.forest.nodes[id]); }

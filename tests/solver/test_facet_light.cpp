@@ -91,7 +91,7 @@ void noise_goes_and_the_mean_stays() {
 void sealed_parts_have_no_say() {
   Facets facets(sphere(), noisy);
   for (NodeId root : facets.cells)
-    facets.forest.nodes[root].exposed = static_cast<float>(root % 4) / 4;
+    facets.forest.nodes.set_exposed(root, static_cast<float>(root % 4) / 4);
   for (NodeId root : facets.cells)
     if (root % 4 == 0) facets.light[root] = 1000;
   const double power = facets.power();

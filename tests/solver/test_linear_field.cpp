@@ -18,12 +18,8 @@ struct Square {
     for (NodeId id = 0; id < static_cast<NodeId>(forest->nodes.size()); ++id) {
       if (forest->nodes[id].level == levels) continue;
       const NodeId first = static_cast<NodeId>(forest->nodes.size());
-      for (int k = 0; k < 4; ++k) {
-        Node child = child_place(forest->nodes[id], k);
-        child.parent = id;
-        forest->nodes.push_back(child);
-      }
-      forest->nodes[id].first_child = first;
+      forest->nodes.resize(forest->nodes.size() + 4);
+      forest->nodes.adopt(id, first);
     }
     leaves = forest->leaves();
   }

@@ -264,8 +264,9 @@ void vertices_given_twice_are_one() {
 void sealed_leaves_do_not_darken_their_neighbours() {
   Field field(square());
   split_all(field.forest, 4);
-  for (Node& node : field.forest.nodes)
-    node.exposed = field.forest.triangle(node).centroid().x < 0.5 ? 0.0f : 1.0f;
+  NodeArray& nodes = field.forest.nodes;
+  for (size_t k = 0; k < nodes.size(); ++k)
+    nodes.set_exposed(k, field.forest.triangle(nodes[k]).centroid().x < 0.5 ? 0.0f : 1.0f);
   field.fill([](Vec3 p, int) { return p.x < 0.5 ? 0.0 : 2.0; });
   for (uint64_t k = 0; k < 500; ++k) {
     const double x = unit_interval(mix(k, 1)), y = unit_interval(mix(k, 2));

@@ -23,7 +23,7 @@ struct Rows {
   }
   void expose_roots() {
     const LinkSampler sampler = bench.sampler();
-    for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
+    set_exposed_shares(bench.state.forest, sampler);
   }
   bool link() { return link_rows(bench.state, bench.tools({}), settings); }
 

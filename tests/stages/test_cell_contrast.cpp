@@ -58,7 +58,7 @@ void a_step_is_seen_on_both_sides_of_it_in_its_plane() {
 
 void sealed_cells_say_nothing_and_are_told_nothing() {
   Squares squares;
-  for (NodeId k = 2; k < 4; ++k) squares.bench.state.forest.nodes[k].exposed = 0;
+  for (NodeId k = 2; k < 4; ++k) squares.bench.state.forest.nodes.set_exposed(k, 0);
   const std::vector<float> contrast = squares.with({1, 2, 30, 30, 9, 9, 20, 20});
   for (int k = 0; k < 2; ++k) CHECK_EQUAL(contrast[k], 0.25f);
   for (int k = 2; k < 8; ++k) CHECK_EQUAL(contrast[k], 0.0f);

@@ -159,7 +159,7 @@ void light_is_pushed_and_pulled() {
     state.irradiance[k] = static_cast<float>(unit_interval(mix(k)));
   const GrowingArray<float> own = state.irradiance;
   for (NodeId root = 0; root < state.forest.surface_count(); ++root)
-    state.forest.nodes[root].exposed = root % 4 == 1 ? 0.25f : 1.0f;
+    state.forest.nodes.set_exposed(root, root % 4 == 1 ? 0.25f : 1.0f);
   measure_clusters(state.forest);
   push_pull(state, bench.team, bench.exchange);
   const Scene& scene = bench.scene;

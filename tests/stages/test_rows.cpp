@@ -205,7 +205,7 @@ void points_of_a_contact_have_the_means_of_quadratic_fields() {
   set_light(scene, 0, scene.patch_count(), 1, 0.5);
   Workbench bench(scene);
   const LinkSampler sampler = bench.sampler();
-  for (Node& node : bench.state.forest.nodes) node.exposed = sampler.exposed_share(node);
+  set_exposed_shares(bench.state.forest, sampler);
   const Brightness none{{1, 1, 1}, std::vector<float>(bench.state.forest.nodes.size(), 0.0f), {}};
   const Emitters emitters(bench.state.forest, bench.exposure, none.of_node, 1);
   LightGrid grid(emitters, *bench.engine, 1, 1);

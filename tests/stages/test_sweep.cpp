@@ -43,13 +43,13 @@ struct Tree : Workbench {
       return node.level < 1 || mix(key_of(forest, node)) % 2 == 0;
     });
     for (size_t k = forest.nodes.size(); k-- > 0;) {
-      Node& node = forest.nodes[k];
-      if (node.first_child < 0) {
-        node.exposed = sealed ? static_cast<float>(mix(k) % 17) / 16 : 1;
-      } else {
-        node.exposed = 0;
-        for (int c = 0; c < 4; ++c) node.exposed += forest.nodes[node.first_child + c].exposed / 4;
-      }
+      const NodeId first = forest.nodes.first_child(k);
+      float exposed = 0;
+      if (first < 0)
+        exposed = sealed ? static_cast<float>(mix(k) % 17) / 16 : 1;
+      else
+        for (int c = 0; c < 4; ++c) exposed += forest.nodes.exposed(first + c) / 4;
+      forest.nodes.set_exposed(k, exposed);
     }
     prepare();
     for (size_t k = 0; k < state.irradiance.size(); ++k)
@@ -120,7 +120,8 @@ void parents_have_the_means_of_their_children() {
 
 void sealed_surfaces_only_emit() {
   Tree tree;
-  for (Node& node : tree.state.forest.nodes) node.exposed = 0;
+  NodeArray& nodes = tree.state.forest.nodes;
+  for (size_t k = 0; k < nodes.size(); ++k) nodes.set_exposed(k, 0);
   push_pull(tree.state, tree.team, tree.exchange);
   for (size_t k = 0; k < tree.state.forest.nodes.size(); ++k)
     for (int b = 0; b < 2; ++b) {

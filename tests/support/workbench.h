@@ -23,7 +23,12 @@ namespace hrad_test {
 inline void split_node(hrad::Forest& forest, hrad::NodeId id) {
   const auto first = static_cast<hrad::NodeId>(forest.nodes.size());
   forest.nodes.resize(forest.nodes.size() + 4);
-  hrad::place_children(forest.nodes, id, first);
+  forest.nodes.adopt(id, first);
+}
+
+inline void set_exposed_shares(hrad::Forest& forest, const hrad::LinkSampler& measure) {
+  for (size_t k = 0; k < forest.nodes.size(); ++k)
+    forest.nodes.set_exposed(k, measure.exposed_share(forest.nodes[k]));
 }
 
 // Splits whatever `wanted` says, up to `level`.
@@ -72,7 +77,7 @@ struct Workbench {
   // The Linking Stage, with the exposed shares of the roots.
   void link(const hrad::OracleSettings& oracle) {
     const hrad::LinkSampler measure = sampler(oracle.near_ratio, oracle.seed);
-    for (hrad::Node& node : state.forest.nodes) node.exposed = measure.exposed_share(node);
+    set_exposed_shares(state.forest, measure);
     prepare();
     CHECK(hrad::link_pairs(state, tools(oracle), hrad::expected_brightness(state)));
   }
@@ -81,7 +86,7 @@ struct Workbench {
   // Exposed shares and clusters; no links yet.
   void prepare_clusters(const hrad::OracleSettings& oracle) {
     const hrad::LinkSampler measure = sampler(oracle.near_ratio, oracle.seed);
-    for (hrad::Node& node : state.forest.nodes) node.exposed = measure.exposed_share(node);
+    set_exposed_shares(state.forest, measure);
     hrad::add_clusters(state.forest);
     prepare();
   }
