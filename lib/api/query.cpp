@@ -126,6 +126,7 @@ hrad_status hrad_query_leaves(const hrad_solver* solver, int64_t first, int64_t 
   return hrad::api::collective(solver, [&](const hrad::Solver& inside) {
     hrad::api::require_range(first, count, inside.leaf_count(), "leaves");
     inside.comm().all_go_on();
+    inside.prepare_leaves();
     const int bands = inside.scene().bands;
     for (int64_t i = 0; i < count; ++i) {
       copy_leaf(inside.leaf(first + i), at(patch, i), at(face, i), at(side, i),

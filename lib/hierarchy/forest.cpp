@@ -105,9 +105,7 @@ double Forest::total_area() const {
 
 std::vector<NodeId> Forest::leaves() const {
   std::vector<NodeId> result, stack;
-  size_t count = 0;
-  for (size_t k = 0; k < nodes.size(); ++k) count += nodes.first_child(k) < 0;
-  result.reserve(count);
+  result.reserve(static_cast<size_t>(leaf_count()));
   for (NodeId root = 0; root < surface_count(); ++root) {
     stack.push_back(root);
     while (!stack.empty()) {

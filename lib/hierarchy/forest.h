@@ -55,6 +55,9 @@ class Forest {
   // The same of many, which don't wait for memory one after the other.
   static constexpr size_t most_met = 16;
   void leaves_met(Span<const Hit> hits, NodeId* leaves) const;
+  int64_t leaf_count() const {
+    return surface_count() + 3 * static_cast<int64_t>(nodes.size() - nodes.first_element()) / 4;
+  }
   // All leaves in key order (patch, side, path).
   std::vector<NodeId> leaves() const;
 

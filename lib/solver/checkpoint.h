@@ -24,15 +24,17 @@ namespace hrad {
 
 class AllPoints;
 class Exchange;
+class LightOfAll;
 
 // What there is to be written. Nothing is copied.
 struct CheckpointView {
   const Params& params;
   const Scene& scene;
-  bool begun;                  // a solve was: the result parameters hold
-  const State* state;          // nullptr: nothing is linked
-  const Exchange* exchange;    // where something is linked: whose the links are
-  const AllPoints* points;     // likewise
+  bool begun;                // a solve was: the result parameters hold
+  const State* state;        // nullptr: nothing is linked
+  const Exchange* exchange;  // where something is linked: whose the links are
+  const AllPoints* points;   // likewise
+  const LightOfAll *radiosity, *irradiance;
   Span<const LinkStep> steps;  // of linking or refinement that is under way: this process's own
   uint64_t key_of_steps;
   int64_t rays, pairs;

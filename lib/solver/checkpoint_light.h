@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "solver/packed_bytes.h"
+#include "stages/light_of_all.h"
 #include "stages/state.h"
 
 namespace hrad {
 
-void pack_light(const State& state, int64_t first, int64_t end, PackedBytes& bytes);
+void pack_light(const State& state, const LightOfAll& radiosity, const LightOfAll& irradiance,
+                int64_t first, int64_t end, PackedBytes& bytes);
 
 // Light is kept as differences from what is expected by that of other nodes: all differences are
 // read, then added up.

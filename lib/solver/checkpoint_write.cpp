@@ -70,7 +70,7 @@ void write_checkpoint(Comm& comm, SharedFile& file, const CheckpointView& view, 
   else
     write_no_links(sink);
   sink.write(Section::light, sizes.nodes(), [&](int64_t first, int64_t end, PackedBytes& bytes) {
-    pack_light(state, first, end, bytes);
+    pack_light(state, *view.radiosity, *view.irradiance, first, end, bytes);
   });
   write_steps(sink, view);
   sink.finish();

@@ -72,8 +72,7 @@ Residual residual_of(const State& state, const StageTools& tools, const RayGathe
   for (int b = 0; b < bands; ++b) {
     const size_t at = static_cast<size_t>(surface.patch) * bands + b;
     const double factor = reflected ? scene.reflectance[at] : 1.0;
-    const double solved =
-        factor * exposed * state.irradiance[static_cast<size_t>(root) * bands + b];
+    const double solved = factor * exposed * state.irradiance_of(root)[b];
     for (const auto& of_half : sum) {
       const double difference = solved - factor * of_half[b] / points;
       r.difference[b] += difference;
@@ -106,8 +105,8 @@ Patches::Patches(const State& state) {
     const double largest = *std::max_element(reflectance, reflectance + bands);
     for (size_t b = 0; b < bands; ++b) {
       emitted[b] += surface.area * scene.emission[static_cast<size_t>(surface.patch) * bands + b];
-      sent_back[b] += surface.area * forest.nodes[root].exposed * reflectance[b] *
-                      state.irradiance[static_cast<size_t>(root) * bands + b];
+      sent_back[b] +=
+          surface.area * forest.nodes[root].exposed * reflectance[b] * state.irradiance_of(root)[b];
     }
     if (scene.emits(surface.patch)) continue;
     reflected = reflected || largest > 0;
@@ -124,8 +123,7 @@ Patches::Patches(const State& state) {
     double sum = 0;
     for (size_t b = 0; b < bands; ++b) {
       const double light = (reflected ? scene.reflectance[patch + b] : 1.0) *
-                           forest.nodes[roots[k]].exposed *
-                           state.irradiance[static_cast<size_t>(roots[k]) * bands + b];
+                           forest.nodes[roots[k]].exposed * state.irradiance_of(roots[k])[b];
       sum += light * light;
     }
     square.push_back(sum);
@@ -140,13 +138,14 @@ Patches::Patches(const State& state) {
 class Measurement {
  public:
   // All must outlive this.
-  Measurement(State& state, const StageTools& tools, const Patches& patches, int points)
+  Measurement(State& state, const LightOfAll& radiosity, const StageTools& tools,
+              const Patches& patches, int points)
       : state_(state),
         tools_(tools),
         patches_(patches),
         points_(points),
         draw_(patches.weights),
-        rays_(state, tools.engine, RayGather::Solution::doubted),
+        rays_(state, radiosity, tools.engine, RayGather::Solution::doubted),
         spaces_(static_cast<size_t>(tools.team.size())) {}
 
   void draw_batch() {
@@ -229,12 +228,12 @@ double expected_rays_of_estimate(double accuracy) {
 }
 
 std::optional<ErrorEstimate> estimate_error(
-    State& state, const StageTools& tools, double accuracy,
+    State& state, const LightOfAll& radiosity, const StageTools& tools, double accuracy,
     const std::function<void(const MeasuredError&)>& so_far) {
   ErrorEstimate estimate;
   const Patches patches(state);
   if (patches.roots.empty()) return estimate;
-  Measurement measurement(state, tools, patches, points_of_a_half(accuracy));
+  Measurement measurement(state, radiosity, tools, patches, points_of_a_half(accuracy));
   double batches = expected_batches(accuracy);
   for (int batch = 0; batch < most_batches; ++batch) {
     measurement.draw_batch();

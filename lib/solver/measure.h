@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/residuals.h"
+#include "stages/light_of_all.h"
 #include "stages/state.h"
 
 namespace hrad {
@@ -22,7 +23,7 @@ struct ErrorEstimate : MeasuredError {
 // further bounces. What each patch has shown is kept in the journal. so_far: told now and then what
 // is known already, may be empty. Nothing: stopped.
 std::optional<ErrorEstimate> estimate_error(
-    State& state, const StageTools& tools, double accuracy,
+    State& state, const LightOfAll& radiosity, const StageTools& tools, double accuracy,
     const std::function<void(const MeasuredError&)>& so_far = {});
 // For how many rays, of those that go alone, it may go on, before anything is known of the error.
 double expected_rays_of_estimate(double accuracy);
@@ -37,6 +38,7 @@ constexpr int64_t rays_of_the_balance = 131072;
 
 // Emitted by emission and areas, absorbed by fronts by the links' irradiance, the rest by rays that
 // carry the leaving power. Nothing: stopped.
-std::optional<PowerBalance> measure_balance(const State& state, const StageTools& tools);
+std::optional<PowerBalance> measure_balance(State& state, const LightOfAll& radiosity,
+                                            const StageTools& tools);
 
 }  // namespace hrad

@@ -20,7 +20,8 @@ Vec3 point_of(const Triangle& t, uint64_t hash) {
 
 }  // namespace
 
-std::optional<PowerBalance> measure_balance(const State& state, const StageTools& tools) {
+std::optional<PowerBalance> measure_balance(State& state, const LightOfAll& radiosity,
+                                            const StageTools& tools) {
   const Scene& scene = *state.forest.scene;
   const Forest& forest = state.forest;
   const int bands = state.bands;
@@ -28,20 +29,19 @@ std::optional<PowerBalance> measure_balance(const State& state, const StageTools
   for (auto* v : {&balance.emitted, &balance.absorbed, &balance.absorbed_back, &balance.escaped})
     v->assign(bands, 0.0);
   // Leaving power of the exposed part of every leaf, in relative units of its strongest band.
+  const LightOfAll irradiance(state, &State::irradiance, tools.exchange, tools.team);
   const std::vector<NodeId> leaves = forest.leaves();
   std::vector<double> leaving(bands, 0.0);
   for (NodeId id : leaves) {
     const Node& node = forest.nodes[id];
     const double area = forest.area(node), exposed = area * node.exposed;
-    const size_t at = static_cast<size_t>(id) * bands;
     const size_t patch = static_cast<size_t>(forest.surfaces[node.surface].patch) * bands;
     for (int b = 0; b < bands; ++b) {
       balance.emitted[b] += area * scene.emission[patch + b];
-      balance.absorbed[b] +=
-          exposed * (1 - scene.reflectance[patch + b]) * state.irradiance[at + b];
+      balance.absorbed[b] += exposed * (1 - scene.reflectance[patch + b]) * irradiance[id][b];
       // What a sealed part emits is absorbed in the contact.
       balance.absorbed_back[b] += (area - exposed) * scene.emission[patch + b];
-      leaving[b] += exposed * state.radiosity[at + b];
+      leaving[b] += exposed * radiosity[id][b];
     }
   }
   std::vector<double> weights(leaves.size(), 0.0);
@@ -49,9 +49,7 @@ std::optional<PowerBalance> measure_balance(const State& state, const StageTools
     const Node& node = forest.nodes[leaves[k]];
     const double exposed = forest.area(node) * node.exposed;
     for (int b = 0; b < bands; ++b)
-      if (leaving[b] > 0)
-        weights[k] +=
-            exposed * state.radiosity[static_cast<size_t>(leaves[k]) * bands + b] / leaving[b];
+      if (leaving[b] > 0) weights[k] += exposed * radiosity[leaves[k]][b] / leaving[b];
   }
   const Draw draw(weights);
   if (!(draw.total() > 0)) return balance;
@@ -104,8 +102,8 @@ std::optional<PowerBalance> measure_balance(const State& state, const StageTools
       const double chance = weights[pick] / draw.total();
       const double exposed = forest.area(node) * node.exposed;
       for (int b = 0; b < bands; ++b) {
-        const double power = exposed * state.radiosity[static_cast<size_t>(id) * bands + b] /
-                             (chance * static_cast<double>(rays_of_the_balance));
+        const double power =
+            exposed * radiosity[id][b] / (chance * static_cast<double>(rays_of_the_balance));
         (lost ? s.out : s.back)[b] += power;
       }
     }

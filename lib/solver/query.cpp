@@ -24,13 +24,13 @@ double value_of(Quantity quantity, double emission, double reflectance, double i
 }
 
 // Mean over the whole area of a node, sealed parts included.
-void node_values(const State& state, NodeId id, Quantity quantity, double* out) {
+void node_values(const State& state, NodeId id, const float* irradiance_of_node, Quantity quantity,
+                 double* out) {
   const Scene& scene = *state.forest.scene;
   const Node& node = state.forest.nodes[id];
   const size_t patch = static_cast<size_t>(state.forest.surfaces[node.surface].patch) * state.bands;
   for (int b = 0; b < state.bands; ++b) {
-    const double irradiance =
-        node.exposed * state.irradiance[static_cast<size_t>(id) * state.bands + b];
+    const double irradiance = node.exposed * irradiance_of_node[b];
     out[b] =
         value_of(quantity, scene.emission[patch + b], scene.reflectance[patch + b], irradiance);
   }
@@ -38,25 +38,55 @@ void node_values(const State& state, NodeId id, Quantity quantity, double* out) 
 
 }  // namespace
 
+const std::vector<NodeId>& Solver::leaves() const {
+  std::vector<NodeId>& leaves = solution_->answers.leaves;
+  if (leaves.empty()) leaves = solution_->state.forest.leaves();
+  return leaves;
+}
+
+// All of them have it, or none.
+const LightOfAll& Solver::Solution::light_of_all(std::unique_ptr<LightOfAll>& answer,
+                                                 GrowingArray<float> State::*quantity) {
+  if (!answer) {
+    auto made = std::make_unique<LightOfAll>(state, quantity, *exchange, *team);
+    exchange->comm().all_go_on();
+    answer = std::move(made);
+  }
+  return *answer;
+}
+
+const LightOfAll& Solver::radiosity_of_all() const {
+  return solution_->light_of_all(solution_->answers.radiosity, &State::radiosity);
+}
+
+const LightOfAll& Solver::irradiance_of_all() const {
+  return solution_->light_of_all(solution_->answers.irradiance, &State::irradiance);
+}
+
+void Solver::prepare_leaves() const { irradiance_of_all(); }
+
 const Reconstruction& Solver::reconstruction() const {
   Solution& s = *solution_;
-  if (!s.reconstruction) {
+  if (!s.answers.reconstruction) {
     const RowSettings rows = rows_of(params_, s.state.forest, s.inspection.mean_distance, s.scale);
-    auto made = std::make_unique<Reconstruction>(s.state, s.leaves, *s.exchange, rows.cell_area);
-    comm_->all_go_on();  // all of them have it, or none
-    s.reconstruction = std::move(made);
+    auto made = std::make_unique<Reconstruction>(s.state, irradiance_of_all(), leaves(),
+                                                 *s.exchange, rows.cell_area);
+    comm_->all_go_on();
+    s.answers.reconstruction = std::move(made);
   }
-  return *s.reconstruction;
+  return *s.answers.reconstruction;
 }
 
 bool Solver::Solution::measure(const StageTools& tools, double accuracy, Stats& stats,
                                const std::function<void(const MeasuredError&)>& so_far) {
   const double all = expected_rays_of_estimate(accuracy) + rays_of_the_balance;
   const double of_balance = rays_of_the_balance / all;
+  const LightOfAll radiosity(state, &State::radiosity, tools.exchange, tools.team);
   const std::optional<ErrorEstimate> estimate =
-      estimate_error(state, tools.of_part(0, 1 - of_balance), accuracy, so_far);
+      estimate_error(state, radiosity, tools.of_part(0, 1 - of_balance), accuracy, so_far);
   if (!estimate) return false;
-  std::optional<PowerBalance> measured = measure_balance(state, tools.of_part(1 - of_balance, 1));
+  std::optional<PowerBalance> measured =
+      measure_balance(state, radiosity, tools.of_part(1 - of_balance, 1));
   if (!measured) return false;
   stats.error_estimate = estimate->error;
   stats.error_standard_error = estimate->standard_error;
@@ -102,7 +132,7 @@ void Solver::query_patches(Quantity quantity, int32_t side, int64_t first, int64
   for (int64_t k = 0; k < count; ++k) {
     const NodeId root = state.forest.root(first + k, side);
     if (root >= 0)
-      node_values(state, root, quantity, out + k * bands);
+      node_values(state, root, state.irradiance_of(root), quantity, out + k * bands);
     else
       std::fill(out + k * bands, out + (k + 1) * bands, 0.0);
   }
@@ -137,12 +167,12 @@ void Solver::query_points(Quantity quantity, int32_t side, int64_t count, const 
 
 int64_t Solver::leaf_count() const {
   require_solved();
-  return static_cast<int64_t>(solution_->leaves.size());
+  return solution_->state.forest.leaf_count();
 }
 
 LeafView Solver::leaf(int64_t index) const {
   const Forest& forest = solution_->state.forest;
-  const Node& node = forest.nodes[solution_->leaves[index]];
+  const Node& node = forest.nodes[leaves()[index]];
   const Surface& surface = forest.surfaces[node.surface];
   LeafView view;
   view.patch = surface.patch;
@@ -155,12 +185,13 @@ LeafView Solver::leaf(int64_t index) const {
 }
 
 void Solver::leaf_values(int64_t index, Quantity quantity, double* out) const {
-  node_values(solution_->state, solution_->leaves[index], quantity, out);
+  const NodeId leaf = leaves()[index];
+  node_values(solution_->state, leaf, irradiance_of_all()[leaf], quantity, out);
 }
 
 void Solver::leaf_corner_radiosity(int64_t index, double* out) const {
   const State& state = solution_->state;
-  const NodeId leaf = solution_->leaves[index];
+  const NodeId leaf = leaves()[index];
   const Node& node = state.forest.nodes[leaf];
   const size_t patch =
       static_cast<size_t>(state.forest.surfaces[node.surface].patch) * scene_.bands;
@@ -173,7 +204,7 @@ void Solver::leaf_corner_radiosity(int64_t index, double* out) const {
 }
 
 std::array<int32_t, 3> Solver::leaf_corner_numbers(int64_t index) const {
-  return reconstruction().corner_numbers(solution_->leaves[index]);
+  return reconstruction().corner_numbers(leaves()[index]);
 }
 
 void Solver::power_balance(double* emitted, double* absorbed, double* absorbed_back,

@@ -115,7 +115,7 @@ void Solver::query_sensors(int64_t count, const double* xyz, const double* norma
   require_solved();
   const int bands = scene_.bands;
   comm_->all_go_on();
-  const RayGather gather(solution_->state, *solution_->engine);
+  const RayGather gather(solution_->state, radiosity_of_all(), *solution_->engine);
   ThreadTeam& team = *solution_->team;
   std::vector<RayGather::NearEmitters> spaces(static_cast<size_t>(team.size()));
   team.for_each(count, [&](int64_t k, int worker) {

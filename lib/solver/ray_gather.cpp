@@ -29,8 +29,10 @@ constexpr int most_bounces = 128;
 
 }  // namespace
 
-RayGather::RayGather(const State& state, const VisibilityEngine& engine, Solution solution)
+RayGather::RayGather(const State& state, const LightOfAll& radiosity,
+                     const VisibilityEngine& engine, Solution solution)
     : state_(state),
+      radiosity_(radiosity),
       engine_(engine),
       solution_(solution),
       emitter_of_(static_cast<size_t>(state.forest.surface_count()), -1) {
@@ -138,8 +140,7 @@ int64_t RayGather::add_by_cosine_ray(Vec3 x, Vec3 n, const double p[4], uint64_t
     const size_t of_patch = static_cast<size_t>(hit.patch) * bands + b;
     const double emission = scene.emission[of_patch];
     const double reflected =
-        doubted ? scene.reflectance[of_patch] * arriving[b]
-                : state_.radiosity[static_cast<size_t>(leaf) * bands + b] - emission;
+        doubted ? scene.reflectance[of_patch] * arriving[b] : radiosity_[leaf][b] - emission;
     value[b] += reflected / cosine_rays + emitted * emission;
   }
   return rays;

@@ -8,6 +8,7 @@
 
 #include "base/draw.h"
 #include "links/element.h"
+#include "stages/light_of_all.h"
 #include "stages/state.h"
 
 namespace hrad {
@@ -19,7 +20,8 @@ class RayGather {
   // bright walls light is lost little by little over many bounces, and a single one hardly shows
   // it.
   enum class Solution { trusted, doubted };
-  RayGather(const State& state, const VisibilityEngine& engine,
+  // radiosity: of all nodes. All must outlive this.
+  RayGather(const State& state, const LightOfAll& radiosity, const VisibilityEngine& engine,
             Solution solution = Solution::trusted);
 
   // Emitters by the light that would arrive from them without occlusion anywhere on an element; of
@@ -50,6 +52,7 @@ class RayGather {
                int cosine_rays) const;
 
   const State& state_;
+  const LightOfAll& radiosity_;
   const VisibilityEngine& engine_;
   const Solution solution_;
   std::vector<NodeId> emitters_;     // roots with emission

@@ -107,10 +107,10 @@ double weight_of_mean(const Forest& forest, NodeId id) {
 }
 
 // From all that arrives over the leaves.
-LinearField field_of_means(const State& state, const std::vector<NodeId>& leaves) {
+LinearField field_of_means(const State& state, const LightOfAll& irradiance,
+                           const std::vector<NodeId>& leaves) {
   const auto mean = [&](NodeId id, double* values) {
-    const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
-    std::copy(irradiance, irradiance + state.bands, values);
+    std::copy_n(irradiance[id], state.bands, values);
     return weight_of_mean(state.forest, id);
   };
   return LinearField(
@@ -172,11 +172,12 @@ LinearField field_of_rows(const State& state, const std::vector<NodeId>& leaves,
 
 }  // namespace
 
-Reconstruction::Reconstruction(const State& state, const std::vector<NodeId>& leaves,
-                               const Exchange& exchange, double cell_area)
+Reconstruction::Reconstruction(const State& state, const LightOfAll& irradiance,
+                               const std::vector<NodeId>& leaves, const Exchange& exchange,
+                               double cell_area)
     : bands_(state.bands),
       field_(has_points(state) ? field_of_rows(state, leaves, exchange, cell_area)
-                               : field_of_means(state, leaves)) {}
+                               : field_of_means(state, irradiance, leaves)) {}
 
 void Reconstruction::at(NodeId leaf, double u, double v, double* out) const {
   std::fill(out, out + bands_, 0.0);

@@ -30,10 +30,17 @@ struct Solver::Solution : SolveProgress {
   bool measure(const StageTools& tools, double accuracy, Stats& stats,
                const std::function<void(const MeasuredError&)>& so_far = {});
 
-  // For queries, made when the solve is finished or stopped.
-  std::vector<NodeId> leaves;  // in key order
-  std::unique_ptr<Reconstruction> reconstruction;
   PowerBalance balance;
+
+  // What queries want, each made when it is first asked for, and thrown away by the next solve.
+  struct Answers {
+    std::vector<NodeId> leaves;  // in key order
+    std::unique_ptr<LightOfAll> radiosity, irradiance;
+    std::unique_ptr<Reconstruction> reconstruction;
+  };
+  Answers answers;
+  const LightOfAll& light_of_all(std::unique_ptr<LightOfAll>& answer,
+                                 GrowingArray<float> State::*quantity);
 };
 
 // Of emission and reflectance.

@@ -112,7 +112,7 @@ void Solver::Run::forget_measurements() {
 
 void Solver::Run::clear_state() {
   clear(state_);
-  exchange_.forget();
+  exchange_.forget(state_);
 }
 
 // Measures the solution and makes it ready for queries.
@@ -151,10 +151,10 @@ Status Solver::solve() {
   partition();
   begun_ = true;
   Status status;
+  solution_->answers = Solution::Answers();
   solving_ = true;
   try {
     status = Run(*this, start).run();
-    if (params_.refine != 0) solution_->leaves = solution_->state.forest.leaves();
     comm_->all_go_on();
     solving_ = false;
   } catch (...) {
@@ -169,7 +169,7 @@ Status Solver::solve() {
   }
   stats_.converged = status == Status::ok;
   stats_.cpu_seconds += user_seconds() - cpu;
-  solution_->reconstruction.reset();
+  solution_->answers = Solution::Answers();
   return status;
 }
 

@@ -31,11 +31,18 @@ TimeLeft::Expected as_before(double seconds) {
 // Names of stages in the journal's key; a round of refinement is its number.
 constexpr uint64_t stage_of_linking = 0, stage_of_measuring = uint64_t{1} << 32;
 
-uint64_t hash_of_light_on(const State& state) {
-  Hasher hash;
-  for (const auto* light : {&state.radiosity, &state.irradiance})
-    for (size_t k = 0; k < state.irradiance.size(); ++k) hash.add((*light)[k]);
-  return hash.value();
+// Collective.
+uint64_t hash_of_light_on(const State& state, const Exchange& exchange) {
+  uint64_t sum = 0;  // of whole numbers, in any order
+  for (NodeId id = 0; id < static_cast<NodeId>(state.forest.nodes.size()); ++id) {
+    if (!exchange.mine(state.forest, id)) continue;
+    Hasher hash;
+    for (const float* light : {state.radiosity_of(id), state.irradiance_of(id)})
+      for (int b = 0; b < state.bands; ++b) hash.add(light[b]);
+    sum += mix(static_cast<uint64_t>(id), hash.value());
+  }
+  exchange.comm().add_up({&sum, 1});
+  return sum;
 }
 
 bool measure_roots(State& state, const StageTools& tools) {
@@ -56,7 +63,7 @@ StageTools Solver::Run::tools(int oracle_round) {
 }
 
 void Solver::Run::begin_from_emission(int round) {
-  reset_to_emission(state_, *solution_.team);
+  reset_to_emission(state_, *solution_.team, exchange_);
   begin_sweeps(round);
   solution_.from_emission = true;
   solution_.earlier_sweeps = solver_.stats_.iterations;
@@ -95,7 +102,8 @@ bool Solver::Run::link() {
 // All but linking follows from the light that the stage begins with.
 void Solver::Run::begin_journal(uint64_t stage) {
   const bool keeps = params_.resumable != 0 || !state_.journal.empty();
-  const uint64_t light = keeps && stage != stage_of_linking ? hash_of_light_on(state_) : 0;
+  const uint64_t light =
+      keeps && stage != stage_of_linking ? hash_of_light_on(state_, exchange_) : 0;
   const uint64_t key =
       mix(hash_of_linking(params_, solution_.light_hash, solution_.scale), stage, light);
   counted(state_, [&] { state_.journal.begin(key, state_.rays, state_.pairs); });
@@ -109,7 +117,7 @@ void Solver::Run::forget_journal() {
 bool Solver::Run::link_by_pairs() {
   StageTools stage = tools(0);
   if (!measure_roots(state_, stage)) return false;
-  reset_to_emission(state_, stage.team);
+  reset_to_emission(state_, stage.team, exchange_);
   state_.links.resize(state_.forest.nodes.size());
   return link_pairs(state_, stage, expected_brightness(state_));
 }
@@ -119,7 +127,7 @@ bool Solver::Run::link_by_clusters() {
   if (!measure_roots(state_, stage)) return false;
   if (state_.forest.clusters.empty()) add_clusters(state_.forest);
   state_.links.resize(state_.forest.nodes.size());
-  reset_to_emission(state_, stage.team);
+  reset_to_emission(state_, stage.team, exchange_);
   return hrad::link_clusters(state_, stage, expected_brightness(state_));
 }
 
@@ -143,8 +151,9 @@ bool Solver::Run::round() {
   if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
   rebalance(state_, *solution_.team, exchange_, work_);
   begin_journal(static_cast<uint64_t>(number));
-  const Brightness brightness = measure_brightness(state_, *solution_.team, exchange_);
-  const bool done = refine_links(state_, tools(number), brightness, &work_);
+  const LightOfAll radiosity(state_, &State::radiosity, exchange_, *solution_.team);
+  const Brightness brightness = measure_brightness(state_, radiosity, *solution_.team, exchange_);
+  const bool done = refine_links(state_, tools(number), brightness, radiosity, &work_);
   solver_.stats_.seconds_iterative +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!done) return false;
@@ -191,7 +200,7 @@ bool Solver::Run::sweep(int round) {
   }
   seconds_of_sweeps_ = clock_.seconds_of_stage();
   exchange_.finish_update(state_, *solution_.team);
-  exchange_.share_light(state_, *solution_.team);
+  exchange_.share_roots(state_, *solution_.team);
   solver_.stats_.seconds_iterative +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   solution_.sweeping = !solution_.converged && !out_of_sweeps();

@@ -184,7 +184,7 @@ Stats Solver::counts() const {
   const State& state = solution.state;
   s.threads = solution.team->size();
   s.elements = static_cast<int64_t>(state.forest.nodes.size());
-  s.leaves = static_cast<int64_t>(solution.leaves.size());
+  s.leaves = state.forest.leaf_count();
   s.rays = state.rays;
   s.pairs = state.pairs;
   s.swept_links = state.links.link_count() + state.direct.mean.link_count() -
@@ -195,8 +195,7 @@ Stats Solver::counts() const {
     s.message_bytes[kind] = solution.exchange->counts().bytes[kind];
   }
   s.link_bytes = bytes_of_links(state);
-  s.node_bytes =
-      bytes_of_nodes(state) + static_cast<int64_t>(solution.leaves.capacity() * sizeof(NodeId));
+  s.node_bytes = bytes_of_nodes(state) + bytes_in(solution.answers.leaves);
   s.area = s.sealed_area = 0;
   for (size_t k = 0; k < state.forest.surfaces.size(); ++k) {
     s.area += state.forest.surfaces[k].area;
@@ -237,8 +236,7 @@ uint64_t hash_of_node(const State& state, NodeId id) {
         hash.add(place.y);
       }
   }
-  for (int band = 0; band < state.bands; ++band)
-    hash.add(state.radiosity[at * static_cast<size_t>(state.bands) + static_cast<size_t>(band)]);
+  for (int band = 0; band < state.bands; ++band) hash.add(state.radiosity_of(id)[band]);
   return hash.value();
 }
 
@@ -280,7 +278,8 @@ void Solver::export_file(const std::string& path) const {
     broadcast(*comm_, needs);
     if (needs[0]) {
       require_solved();
-      reconstruction();  // by all of them
+      prepare_leaves();  // by all of them
+      reconstruction();
     }
   }
   if (comm_->rank() == 0) export_solution(*this, path);

@@ -96,6 +96,8 @@ class Solver {
   void query_sensors(int64_t count, const double* xyz, const double* normal, double* irradiance,
                      double* standard_error) const;
   int64_t leaf_count() const;
+  // Collective, before any process looks at leaves.
+  void prepare_leaves() const;
   LeafView leaf(int64_t index) const;                                     // in key order
   void leaf_values(int64_t index, Quantity quantity, double* out) const;  // means, bands values
   // Linear reconstruction of radiosity at the three corners of a leaf: 3*bands values.
@@ -126,6 +128,10 @@ class Solver {
   void require_solved() const;
   void measure_if_due() const;
   Stats counts() const;  // stats() with what has been measured already
+  // Of the answers that are kept for queries. Those but the first are collective.
+  const std::vector<int32_t>& leaves() const;
+  const class LightOfAll& radiosity_of_all() const;
+  const class LightOfAll& irradiance_of_all() const;
   const class Reconstruction& reconstruction() const;
   void require_open() const;  // the scene may still grow
   void set_up_axis();         // of a scene that has just changed, where the parameter says

@@ -78,12 +78,19 @@ void Solver::write_checkpoint(const std::string& path) {
     lock = std::make_unique<FileLock>(path);
   SharedFile file(*comm_, path);
   std::unique_ptr<AllPoints> points;
-  if (linked) points = std::make_unique<AllPoints>(solution_->state, *s->exchange);
+  std::unique_ptr<LightOfAll> radiosity, irradiance;
+  if (linked) {
+    State& state = solution_->state;
+    points = std::make_unique<AllPoints>(state, *s->exchange);
+    radiosity = std::make_unique<LightOfAll>(state, &State::radiosity, *s->exchange, *s->team);
+    irradiance = std::make_unique<LightOfAll>(state, &State::irradiance, *s->exchange, *s->team);
+  }
   hrad::write_checkpoint(
       *comm_, file,
       {params_, scene_, begun_, linked ? &s->state : nullptr, linked ? s->exchange.get() : nullptr,
-       points.get(), own_steps(journal, *comm_), journal.key(), rays, pairs, *progress, stats_,
-       s ? s->balance : no_balance, s ? s->inspection : no_inspection},
+       points.get(), radiosity.get(), irradiance.get(), own_steps(journal, *comm_), journal.key(),
+       rays, pairs, *progress, stats_, s ? s->balance : no_balance,
+       s ? s->inspection : no_inspection},
       s && !solving_ ? s->team.get() : nullptr);
   file.commit_keeping(static_cast<int>(params_.checkpoint_keep));
   stats_.seconds_output +=
@@ -112,13 +119,12 @@ void Solver::take_over(CheckpointContent& content) {
     state.links = std::move(content.state->links);
     state.cells = std::move(content.state->cells);
     state.direct = std::move(content.state->direct);
-    state.radiosity = std::move(content.state->radiosity);
-    state.irradiance = std::move(content.state->irradiance);
     keep_own_links(state, *s.exchange, *s.team);
-    s.exchange->forget();
+    s.exchange->forget(state);
+    s.exchange->keep_own_light(state, content.state->radiosity.data(),
+                               content.state->irradiance.data());
     s.exchange->ask_for_sources(state, *s.team);
   });
-  if (content.state) s.leaves = state.forest.leaves();
 }
 
 // Rank 0 alone opens the file.

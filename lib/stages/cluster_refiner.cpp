@@ -45,7 +45,7 @@ LinkLoad ClusterRefiner::load_of(NodeId source_id, const Element& source, double
   load.source_area = source.area;
   load.may_split = true;
   load.may_descend = source.cluster || node.first_child >= 0;
-  const float* radiosity = &state_.radiosity[static_cast<size_t>(source_id) * state_.bands];
+  const float* radiosity = radiosity_[source_id];
   if (tools_.oracle.kind == OracleKind::energy)
     for (int band = 0; band < state_.bands; ++band)
       load.power = std::max(load.power, weight * radiosity[band] * load.receiver_area);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "stages/light_of_all.h"
 #include "stages/state.h"
 
 namespace hrad {
@@ -16,11 +17,12 @@ struct ClusterResult {
 class ClusterRefiner {
  public:
   ClusterRefiner(const State& state, const StageTools& tools, const Brightness& brightness,
-                 const EndPointsTable& points)
+                 const LightOfAll& radiosity, const EndPointsTable& points)
       : state_(state),
         points_(points),
         tools_(tools),
         brightness_(brightness),
+        radiosity_(radiosity),
         sampler_(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                  tools.oracle.near_ratio) {}
 
@@ -41,6 +43,7 @@ class ClusterRefiner {
   const EndPointsTable& points_;
   const StageTools& tools_;
   const Brightness& brightness_;
+  const LightOfAll& radiosity_;
   LinkSampler sampler_;
   Element receiver_;
   uint64_t key_ = 0;

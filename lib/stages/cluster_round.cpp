@@ -38,15 +38,15 @@ bool take_result(KnownResult& known, size_t nodes, ClusterResult& taken) {
 }  // namespace
 
 bool refine_clusters(State& state, const StageTools& tools, const Brightness& brightness,
-                     const EndPointsTable& points, Span<const NodeId> met, StageMemory& memory,
-                     ClusterRound& round) {
+                     const LightOfAll& radiosity, const EndPointsTable& points,
+                     Span<const NodeId> met, StageMemory& memory, ClusterRound& round) {
   const Forest& forest = state.forest;
   const NodeId first = static_cast<NodeId>(forest.surface_count());
   round.runs.resize(forest.clusters.clusters.size());
   round.met.resize(static_cast<size_t>(first));
   std::vector<std::unique_ptr<ClusterRefiner>> refiners(tools.team.size());
   for (auto& refiner : refiners)
-    refiner = std::make_unique<ClusterRefiner>(state, tools, brightness, points);
+    refiner = std::make_unique<ClusterRefiner>(state, tools, brightness, radiosity, points);
   std::vector<Task> tasks;
   tasks.push_back({forest.top(), {met.begin(), met.end()}});
   while (!tasks.empty()) {

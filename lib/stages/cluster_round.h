@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "links/end_points.h"
+#include "stages/light_of_all.h"
 #include "stages/state.h"
 #include "stages/state_memory.h"
 
@@ -19,7 +20,7 @@ struct ClusterRound {
 // One pass for each level of clusters; a task is one cluster, which reads the frozen state. met: by
 // the top from outside. False: stopped by tools.progress. Of the state only the journal changes.
 bool refine_clusters(State& state, const StageTools& tools, const Brightness& brightness,
-                     const EndPointsTable& points, Span<const NodeId> met, StageMemory& memory,
-                     ClusterRound& round);
+                     const LightOfAll& radiosity, const EndPointsTable& points,
+                     Span<const NodeId> met, StageMemory& memory, ClusterRound& round);
 
 }  // namespace hrad

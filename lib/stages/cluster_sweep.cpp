@@ -34,17 +34,16 @@ double mean(const double area[2], double a, double b) {
 
 void push_to_roots(State& state) {
   const Forest& forest = state.forest;
-  const size_t bands = static_cast<size_t>(state.bands);
   for (size_t id = first_cluster(forest); id < end_of_clusters(forest); ++id) {
     const NodeId parent = forest.nodes[id].parent;
     if (parent < 0) continue;
-    for (size_t b = 0; b < bands; ++b)
-      state.irradiance[id * bands + b] += state.irradiance[static_cast<size_t>(parent) * bands + b];
+    for (int b = 0; b < state.bands; ++b)
+      state.irradiance_of(static_cast<NodeId>(id))[b] += state.irradiance_of(parent)[b];
   }
 }
 
 void pull_to_clusters(State& state) {
-  const size_t bands = static_cast<size_t>(state.bands);
+  const size_t bands = static_cast<size_t>(state.bands);  // places of roots and clusters are ids
   upwards(state.forest, [&](size_t id, const double area[2], const NodeId child[2]) {
     for (auto* light : {&state.radiosity, &state.irradiance})
       for (size_t b = 0; b < bands; ++b)

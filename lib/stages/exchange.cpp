@@ -24,10 +24,10 @@ void Exchange::deal_out(std::vector<int32_t> owner_of_surface) {
   own_.clear();
   for (size_t surface = 0; surface < owner_.size(); ++surface)
     if (is_me(owner_[surface])) own_.push_back(static_cast<int32_t>(surface));
-  forget();
+  forget_requests();
 }
 
-void Exchange::forget() {
+void Exchange::forget_requests() {
   asked_.clear();
   asked_of_.assign(static_cast<size_t>(comm_.size()), {});
   asked_by_ = asked_of_;
@@ -42,42 +42,33 @@ void Exchange::count(int kind, const std::vector<Bytes>& sent) {
   }
 }
 
-void Exchange::ask_for_sources(const State& state, ThreadTeam& team) {
-  if (alone()) return;
-  const Forest& forest = state.forest;
-  std::vector<std::atomic<uint8_t>> is_source(forest.nodes.size());
-  for (const LinkTable* table : {&state.links, &state.direct.mean})
-    team.for_each(static_cast<int64_t>(table->block_count()), [&](int64_t block, int) {
-      for (const Link& link : table->block(static_cast<size_t>(block)).links)
-        is_source[static_cast<size_t>(link.source)].store(1, std::memory_order_relaxed);
-    });
-  // Clusters, and the roots that they are made of, are known.
-  const auto is_known = [](const Node& node) {
-    return Forest::is_cluster(node) || (node.level == 0 && node.parent >= 0);
+void Exchange::forget(State& state) {
+  forget_requests();
+  state.places = LightPlaces();
+  make_room_for_light(state);
+}
+
+void Exchange::make_places_for_light(State& state) const {
+  LightPlaces& places = state.places;
+  const NodeArray& nodes = state.forest.nodes;
+  if (!alone() && (places.of_all() || places.first_element() != nodes.first_element()))
+    places.keep_some(nodes.first_element());
+  size_t first = places.nodes();
+  places.resize(nodes.size());
+  if (!alone())
+    for (; first < nodes.size(); first += 4)
+      if (mine(nodes[first].surface)) places.add_family(static_cast<NodeId>(first));
+}
+
+void Exchange::keep_own_light(State& state, const float* radiosity, const float* irradiance) const {
+  state.places = LightPlaces();
+  make_room_for_light(state);
+  const size_t bands = static_cast<size_t>(state.bands);
+  const auto keep = [&](size_t id, size_t place, size_t count) {
+    std::copy_n(radiosity + id * bands, count * bands, &state.radiosity[place * bands]);
+    std::copy_n(irradiance + id * bands, count * bands, &state.irradiance[place * bands]);
   };
-  asked_.resize(forest.nodes.size(), 0);
-  const std::vector<NodeId> of_others =
-      gathered<NodeId>(team, forest.nodes.size(), [&](size_t k, std::vector<NodeId>& some) {
-        if (!is_source[k].load(std::memory_order_relaxed) || asked_[k]) return;
-        const Node& node = forest.nodes[k];
-        if (is_known(node) || mine(node.surface)) return;
-        asked_[k] = 1;
-        some.push_back(static_cast<NodeId>(k));
-      });
-  std::vector<std::vector<NodeId>> wanted(asked_of_.size());
-  for (NodeId source : of_others) wanted[owner_[forest.nodes[source].surface]].push_back(source);
-  std::vector<Bytes> to(wanted.size());
-  for (size_t rank = 0; rank < wanted.size(); ++rank) {
-    put(to[rank], wanted[rank].data(), wanted[rank].size());
-    asked_of_[rank].insert(asked_of_[rank].end(), wanted[rank].begin(), wanted[rank].end());
-  }
-  count(requests, to);
-  const std::vector<Bytes> from = comm_.exchange(std::move(to));
-  for (size_t rank = 0; rank < from.size(); ++rank) {
-    const size_t more = from[rank].size() / sizeof(NodeId), before = asked_by_[rank].size();
-    asked_by_[rank].resize(before + more);
-    Taker(from[rank]).take(asked_by_[rank].data() + before, more);
-  }
+  state.places.for_each_stretch(0, state.forest.nodes.size(), keep);
 }
 
 namespace {
@@ -98,29 +89,86 @@ void for_each_asked(ThreadTeam& team, const std::vector<std::vector<NodeId>>& of
   });
 }
 
+std::vector<Bytes> radiosity_of(const State& state, ThreadTeam& team,
+                                const std::vector<std::vector<NodeId>>& elements) {
+  const size_t bytes = static_cast<size_t>(state.bands) * sizeof(float);
+  std::vector<Bytes> to(elements.size());
+  for (size_t rank = 0; rank < to.size(); ++rank) to[rank].resize(elements[rank].size() * bytes);
+  for_each_asked(team, elements, [&](size_t rank, size_t k) {
+    std::memcpy(&to[rank][k * bytes], state.radiosity_of(elements[rank][k]), bytes);
+  });
+  return to;
+}
+
+void take_radiosity(State& state, ThreadTeam& team,
+                    const std::vector<std::vector<NodeId>>& elements,
+                    const std::vector<Bytes>& from) {
+  const size_t bytes = static_cast<size_t>(state.bands) * sizeof(float);
+  for_each_asked(team, elements, [&](size_t rank, size_t k) {
+    std::memcpy(state.radiosity_of(elements[rank][k]), &from[rank][k * bytes], bytes);
+  });
+}
+
 }  // namespace
+
+void Exchange::ask_for_sources(State& state, ThreadTeam& team) {
+  if (alone()) return;
+  make_places_for_light(state);
+  const Forest& forest = state.forest;
+  std::vector<std::atomic<uint8_t>> is_source(forest.nodes.size());
+  for (const LinkTable* table : {&state.links, &state.direct.mean})
+    team.for_each(static_cast<int64_t>(table->block_count()), [&](int64_t block, int) {
+      for (const Link& link : table->block(static_cast<size_t>(block)).links)
+        is_source[static_cast<size_t>(link.source)].store(1, std::memory_order_relaxed);
+    });
+  // Clusters, and the roots that they are made of, are known.
+  const auto is_known = [](const Node& node) {
+    return Forest::is_cluster(node) || (node.level == 0 && node.parent >= 0);
+  };
+  asked_.resize(forest.nodes.size(), false);
+  const std::vector<NodeId> of_others =
+      gathered<NodeId>(team, forest.nodes.size(), [&](size_t k, std::vector<NodeId>& some) {
+        if (!is_source[k].load(std::memory_order_relaxed) || asked_[k]) return;
+        const Node& node = forest.nodes[k];
+        if (!is_known(node) && !mine(node.surface)) some.push_back(static_cast<NodeId>(k));
+      });
+  std::vector<std::vector<NodeId>> wanted(asked_of_.size());
+  const NodeId first_element = static_cast<NodeId>(forest.nodes.first_element());
+  for (NodeId source : of_others) {
+    asked_[static_cast<size_t>(source)] = true;
+    wanted[owner_[forest.nodes[source].surface]].push_back(source);
+    if (source >= first_element) state.places.add_family(source - (source - first_element) % 4);
+  }
+  state.resize_light();
+  std::vector<Bytes> to(wanted.size());
+  for (size_t rank = 0; rank < wanted.size(); ++rank)
+    put(to[rank], wanted[rank].data(), wanted[rank].size());
+  count(requests, to);
+  const std::vector<Bytes> from = comm_.exchange(std::move(to));
+  std::vector<std::vector<NodeId>> wanted_by(from.size());
+  for (size_t rank = 0; rank < from.size(); ++rank) {
+    wanted_by[rank].resize(from[rank].size() / sizeof(NodeId));
+    Taker(from[rank]).take(wanted_by[rank].data(), wanted_by[rank].size());
+  }
+  std::vector<Bytes> told = radiosity_of(state, team, wanted_by);
+  count(updates, told);
+  take_radiosity(state, team, wanted, comm_.exchange(std::move(told)));
+  for (size_t rank = 0; rank < from.size(); ++rank) {
+    asked_of_[rank].insert(asked_of_[rank].end(), wanted[rank].begin(), wanted[rank].end());
+    asked_by_[rank].insert(asked_by_[rank].end(), wanted_by[rank].begin(), wanted_by[rank].end());
+  }
+}
 
 void Exchange::start_update(const State& state, ThreadTeam& team) {
   if (alone()) return;
-  const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
-  std::vector<Bytes> to(asked_by_.size());
-  for (size_t rank = 0; rank < to.size(); ++rank) to[rank].resize(asked_by_[rank].size() * bytes);
-  for_each_asked(team, asked_by_, [&](size_t rank, size_t k) {
-    const size_t at = static_cast<size_t>(asked_by_[rank][k]) * bands;
-    std::memcpy(&to[rank][k * bytes], &state.radiosity[at], bytes);
-  });
+  std::vector<Bytes> to = radiosity_of(state, team, asked_by_);
   count(updates, to);
   comm_.start_exchange(std::move(to));
 }
 
 void Exchange::finish_update(State& state, ThreadTeam& team) {
   if (!comm_.exchanging()) return;
-  const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
-  const std::vector<Bytes> from = comm_.finish_exchange();
-  for_each_asked(team, asked_of_, [&](size_t rank, size_t k) {
-    const size_t at = static_cast<size_t>(asked_of_[rank][k]) * bands;
-    std::memcpy(&state.radiosity[at], &from[rank][k * bytes], bytes);
-  });
+  take_radiosity(state, team, asked_of_, comm_.finish_exchange());
 }
 
 // MPI moves large messages only within its own functions.
@@ -146,22 +194,20 @@ void Exchange::add_up(std::vector<ExactSum>& sums) {
 
 namespace {
 
-// Radiosity and irradiance of some nodes, node_of(k), as rows of bytes.
+// Radiosity and irradiance of some roots, node_of(k), as rows of bytes.
 template <class OwnerOf, class NodeOf>
 size_t share_light_of(Comm& comm, ThreadTeam& team, State& state, size_t count,
                       const OwnerOf& owner_of, const NodeOf& node_of) {
-  const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
+  const size_t bytes = static_cast<size_t>(state.bands) * sizeof(float);
   return share_rows(
       comm, team, count, 2 * bytes, owner_of,
       [&](size_t k, char* to) {
-        const size_t at = node_of(k) * bands;
-        std::memcpy(to, &state.radiosity[at], bytes);
-        std::memcpy(to + bytes, &state.irradiance[at], bytes);
+        std::memcpy(to, state.radiosity_of(node_of(k)), bytes);
+        std::memcpy(to + bytes, state.irradiance_of(node_of(k)), bytes);
       },
       [&](size_t k, const char* from) {
-        const size_t at = node_of(k) * bands;
-        std::memcpy(&state.radiosity[at], from, bytes);
-        std::memcpy(&state.irradiance[at], from + bytes, bytes);
+        std::memcpy(state.radiosity_of(node_of(k)), from, bytes);
+        std::memcpy(state.irradiance_of(node_of(k)), from + bytes, bytes);
       });
 }
 
@@ -170,7 +216,7 @@ size_t share_light_of(Comm& comm, ThreadTeam& team, State& state, size_t count,
 void Exchange::share_roots(State& state, ThreadTeam& team) {
   const size_t sent = share_light_of(
       comm_, team, state, owner_.size(), [&](size_t root) { return owner_[root]; },
-      [](size_t root) { return root; });
+      [](size_t root) { return static_cast<NodeId>(root); });
   count_totals(static_cast<int64_t>(sent));
 }
 
@@ -178,19 +224,8 @@ void Exchange::share_roots_of_clusters(State& state, ThreadTeam& team) {
   const std::vector<int32_t>& roots = state.forest.clusters.order;
   const size_t sent = share_light_of(
       comm_, team, state, roots.size(), [&](size_t k) { return owner_[roots[k]]; },
-      [&](size_t k) { return static_cast<size_t>(roots[k]); });
+      [&](size_t k) { return roots[k]; });
   count_totals(static_cast<int64_t>(sent));
-}
-
-void Exchange::share_light(State& state, ThreadTeam& team) const {
-  if (alone()) return;
-  const Forest& forest = state.forest;
-  // Between the roots and the elements there are clusters.
-  const size_t roots = owner_.size(), clusters = forest.clusters.clusters.size();
-  const auto node_of = [&](size_t k) { return k < roots ? k : k + clusters; };
-  share_light_of(
-      comm_, team, state, forest.nodes.size() - clusters,
-      [&](size_t k) { return owner_[forest.nodes[node_of(k)].surface]; }, node_of);
 }
 
 }  // namespace hrad

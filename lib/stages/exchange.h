@@ -92,10 +92,19 @@ class Exchange {
     });
   }
 
-  // Asks for the elements that own links have begun to name since the last time (R).
-  void ask_for_sources(const State& state, ThreadTeam& team);
+  // Not collective: places for the light of nodes that are new, where they are own, and room.
+  void make_places_for_light(State& state) const;
+  void make_room_for_light(State& state) const {
+    make_places_for_light(state);
+    state.resize_light();
+  }
+  // Not collective: of the light of all nodes, one after the other, that which a process keeps.
+  void keep_own_light(State& state, const float* radiosity, const float* irradiance) const;
+  // Asks for the elements that own links have begun to name since the last time (R), and is told
+  // how they shine at present (U).
+  void ask_for_sources(State& state, ThreadTeam& team);
   bool comes_by_message(NodeId source) const {
-    return static_cast<size_t>(source) < asked_.size() && asked_[static_cast<size_t>(source)] != 0;
+    return static_cast<size_t>(source) < asked_.size() && asked_[static_cast<size_t>(source)];
   }
   // Tells others the radiosity of what they have asked for (U). Theirs is here after
   // finish_update(), which does nothing where there is no update under way; work between the two
@@ -108,10 +117,9 @@ class Exchange {
   // Light on the roots, or on those that clusters are made of, known to all (T).
   void share_roots(State& state, ThreadTeam& team);
   void share_roots_of_clusters(State& state, ThreadTeam& team);
-  // Light on all elements, known to all.
-  void share_light(State& state, ThreadTeam& team) const;
-  // The hierarchy has gone back to the roots: nothing is asked for any more.
-  void forget();
+  // Not collective, but all do it: nothing is asked for any more, and light means nothing until it
+  // is reset.
+  void forget(State& state);
   // Other owners of the surfaces from now on, to be asked anew.
   void deal_out(std::vector<int32_t> owner_of_surface);
 
@@ -119,12 +127,13 @@ class Exchange {
   Comm& comm() const { return comm_; }
 
  private:
+  void forget_requests();
   void count(int kind, const std::vector<Bytes>& sent);
   void count_totals(int64_t bytes);
 
   Comm& comm_;
   std::vector<int32_t> owner_, own_;
-  std::vector<uint8_t> asked_;                 // per node
+  std::vector<bool> asked_;                    // per node
   std::vector<std::vector<NodeId>> asked_of_;  // per rank, ascending at each time of asking
   std::vector<std::vector<NodeId>> asked_by_;  // likewise
   MessageCounts counts_;

@@ -16,7 +16,7 @@ static_assert(State::floats_beyond >= most_lanes, "the last source is read beyon
 void gather_run(Span<const Link> links, const State& state, float* out) {
   double sum[most_bands] = {};
   for (const Link& link : links) {
-    const float* source = &state.radiosity[static_cast<size_t>(link.source) * state.bands];
+    const float* source = state.radiosity_of(link.source);
     for (int band = 0; band < state.bands; ++band)
       sum[band] += static_cast<double>(link.weight) * source[band];
   }
@@ -24,8 +24,8 @@ void gather_run(Span<const Link> links, const State& state, float* out) {
 }
 
 // Adds what arrives over some runs of one block of receivers, those that wait or the others.
-void add_runs(const State& state, const LinkTable::Block& block, const OwnRuns::Runs* waits,
-              bool wanted, float* out) {
+void add_runs(State& state, const LinkTable::Block& block, NodeId first_receiver,
+              const OwnRuns::Runs* waits, bool wanted) {
   uint16_t receivers[LinkTable::receivers_of_a_block];
   size_t runs = 0;
   block.has_links.for_each([&](size_t k) { receivers[runs++] = static_cast<uint16_t>(k); });
@@ -38,38 +38,40 @@ void add_runs(const State& state, const LinkTable::Block& block, const OwnRuns::
     if (kind != wanted) continue;
     uint32_t first = begin > 0 ? block.ends[begin - 1] : 0;
     if (by_kernel) {
-      sweep_kernels()[0]->gather(block.links.data(), block.ends.back(), first, &block.ends[begin],
-                                 receivers + begin, run - begin, state.radiosity.data(),
-                                 state.bands, out);
+      sweep_kernels()[0]->gather({block.links.data(), block.ends.back(), first, &block.ends[begin],
+                                  first_receiver, receivers + begin, run - begin},
+                                 state.places, state.radiosity.data(), state.bands,
+                                 state.irradiance.data());
       continue;
     }
     for (size_t k = begin; k < run; first = block.ends[k++]) {
       float light[most_bands];
       gather_run({block.links.data() + first, block.ends[k] - first}, state, light);
-      for (size_t b = 0; b < bands; ++b) out[receivers[k] * bands + b] += light[b];
+      float* const out = state.irradiance_of(first_receiver + receivers[k]);
+      for (size_t b = 0; b < bands; ++b) out[b] += light[b];
     }
   }
 }
 
-float* irradiance_of_block(State& state, size_t number) {
-  return &state.irradiance[number * LinkTable::receivers_of_a_block *
-                           static_cast<size_t>(state.bands)];
-}
+size_t first_of_block(size_t number) { return number * LinkTable::receivers_of_a_block; }
 
 void set_to_nothing(State& state, size_t number) {
-  const size_t values =
-      state.links.block(number).has_links.size() * static_cast<size_t>(state.bands);
-  std::fill_n(irradiance_of_block(state, number), values, 0.0f);
+  const size_t first = first_of_block(number), bands = static_cast<size_t>(state.bands);
+  state.places.for_each_stretch(first, first + state.links.block(number).has_links.size(),
+                                [&](size_t, size_t place, size_t count) {
+                                  std::fill_n(&state.irradiance[place * bands], count * bands,
+                                              0.0f);
+                                });
 }
 
 // waits: of both tables, nullptr: no run does.
 void add_block(State& state, size_t number, const std::array<OwnRuns::Runs, 2>* waits,
                bool wanted) {
-  float* const out = irradiance_of_block(state, number);
   const LinkTable* const tables[] = {&state.links, &state.direct.mean};
   for (size_t t = 0; t < 2; ++t)
     if (number < tables[t]->block_count())
-      add_runs(state, tables[t]->block(number), waits ? &(*waits)[t] : nullptr, wanted, out);
+      add_runs(state, tables[t]->block(number), static_cast<NodeId>(first_of_block(number)),
+               waits ? &(*waits)[t] : nullptr, wanted);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "machine/pieces.h"
+#include "stages/exchange.h"
 
 namespace hrad {
 
@@ -35,7 +36,7 @@ std::vector<NewFamily> new_families(const SubtreeResult& result) {
 
 std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
                                  const std::vector<std::vector<NewFamily>>& families,
-                                 ThreadTeam& team) {
+                                 ThreadTeam& team, const Exchange& exchange) {
   constexpr size_t tasks_of_a_step = 64;
   const size_t bands = static_cast<size_t>(state.bands);
   NodeArray& nodes = state.forest.nodes;
@@ -47,7 +48,6 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
   }
   require_numbers(count);
   nodes.resize(count);
-  state.resize_light();
   const auto add = [&](size_t task) {
     NodeId next = first[task];
     for (const NewFamily& family : families[task]) {
@@ -55,22 +55,32 @@ std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
                             : family.parent >= 0                     ? family.parent
                                                  : first[task] - 1 - family.parent;
       nodes.adopt(parent, next);
-      for (int child = 0; child < 4; ++child) {
-        const size_t id = static_cast<size_t>(next + child);
-        nodes.set_exposed(id, family.exposed[child]);
-        for (auto* light : {&state.radiosity, &state.irradiance})
-          std::copy_n(light->begin() + static_cast<std::ptrdiff_t>(parent * bands), bands,
-                      light->begin() + static_cast<std::ptrdiff_t>(id * bands));
-      }
+      for (int child = 0; child < 4; ++child)
+        nodes.set_exposed(static_cast<size_t>(next + child), family.exposed[child]);
       next += 4;
     }
   };
-  for_each_piece(
-      team, families.size(),
-      [&](size_t, size_t begin, size_t end) {
-        for (size_t task = begin; task < end; ++task) add(task);
-      },
-      tasks_of_a_step);
+  // Where a process keeps light, its parent's is kept, too.
+  const auto light = [&](size_t task) {
+    NodeId id = first[task];
+    for (const NodeId end = id + 4 * static_cast<NodeId>(families[task].size()); id < end; ++id) {
+      if (!state.places.has(id)) continue;
+      const NodeId parent = nodes[static_cast<size_t>(id)].parent;
+      std::copy_n(state.radiosity_of(parent), bands, state.radiosity_of(id));
+      std::copy_n(state.irradiance_of(parent), bands, state.irradiance_of(id));
+    }
+  };
+  const auto for_each_task = [&](const auto& body) {
+    for_each_piece(
+        team, families.size(),
+        [&](size_t, size_t begin, size_t end) {
+          for (size_t task = begin; task < end; ++task) body(task);
+        },
+        tasks_of_a_step);
+  };
+  for_each_task(add);
+  exchange.make_room_for_light(state);
+  for_each_task(light);
   return first;
 }
 
@@ -79,6 +89,7 @@ void drop_elements(State& state, size_t first) {
   for (size_t k = first; k < nodes.size(); k += 4)
     nodes.lose_children(static_cast<size_t>(nodes[k].parent));
   nodes.resize(first);
+  state.places.resize(first);
   state.resize_light();
   state.links.resize(first);
 }

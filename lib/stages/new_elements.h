@@ -25,7 +25,7 @@ std::vector<NewFamily> new_families(const SubtreeResult& result);
 // being. Returns the number of each task's first one.
 std::vector<NodeId> add_families(State& state, const std::vector<NodeId>& roots,
                                  const std::vector<std::vector<NewFamily>>& families,
-                                 ThreadTeam& team);
+                                 ThreadTeam& team, const Exchange& exchange);
 
 // Takes out the elements from number `first` on, whose parents are leaves again.
 void drop_elements(State& state, size_t first);

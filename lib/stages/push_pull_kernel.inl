@@ -2,11 +2,12 @@
 // Floor 7 (stages).
 
 // Of some bands next to each other, in the trees of one surface after the other.
-template <int Lanes>
+template <int Lanes, class Places>
 class TreeSweep {
  public:
-  TreeSweep(const PushPullRoots& all, int first_band)
+  TreeSweep(const PushPullRoots& all, Places places, int first_band)
       : nodes_(*all.nodes),
+        places_(places),
         bands_(static_cast<size_t>(all.bands)),
         emission_of_patch_(all.emission + first_band),
         reflectance_of_patch_(all.reflectance + first_band),
@@ -59,7 +60,7 @@ class TreeSweep {
     weight += exposed / 4;
   }
 
-  size_t at(NodeId id) const { return static_cast<size_t>(id) * bands_; }
+  size_t at(NodeId id) const { return places_[id] * bands_; }
   // kept: in single precision, of which parents have the means.
   void write(NodeId id, FourDoubles irradiance, FourDoubles& kept) {
     FourFloats single;
@@ -71,15 +72,16 @@ class TreeSweep {
   }
 
   const NodeArray& nodes_;
+  const Places places_;
   const size_t bands_;
   const double *const emission_of_patch_, *const reflectance_of_patch_;
   float *const irradiance_, *const radiosity_;
   FourDoubles emission_, reflectance_;
 };
 
-template <int Lanes>
-inline void push_pull_some(const PushPullRoots& all, int first_band, double* sums) {
-  TreeSweep<Lanes> sweep(all, first_band);
+template <int Lanes, class Places>
+inline void push_pull_some(const PushPullRoots& all, Places places, int first_band, double* sums) {
+  TreeSweep<Lanes, Places> sweep(all, places, first_band);
   for (size_t k = 0; k < all.count; ++k) {
     FourDoubles sum = {};
     sweep.sweep(all.roots[k], all.surfaces[all.roots[k]].patch, sum);
@@ -89,13 +91,21 @@ inline void push_pull_some(const PushPullRoots& all, int first_band, double* sum
 }
 
 // Four bands at a time.
-inline void push_pull(const PushPullRoots& all, double* sums) {
+template <class Places>
+inline void push_pull_at(const PushPullRoots& all, Places places, double* sums) {
   int band = 0;
-  for (; all.bands - band >= 4; band += 4) push_pull_some<4>(all, band, sums);
+  for (; all.bands - band >= 4; band += 4) push_pull_some<4>(all, places, band, sums);
   switch (all.bands - band) {
-    case 3: return push_pull_some<3>(all, band, sums);
-    case 2: return push_pull_some<2>(all, band, sums);
-    case 1: return push_pull_some<1>(all, band, sums);
+    case 3: return push_pull_some<3>(all, places, band, sums);
+    case 2: return push_pull_some<2>(all, places, band, sums);
+    case 1: return push_pull_some<1>(all, places, band, sums);
     default: return;
   }
+}
+
+inline void push_pull(const PushPullRoots& all, double* sums) {
+  if (all.places->of_all())
+    push_pull_at(all, LightPlaces::OfAll(), sums);
+  else
+    push_pull_at(all, LightPlaces::OfSome(*all.places), sums);
 }

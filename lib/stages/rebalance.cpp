@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "partition/partition.h"
+#include "stages/light_of_all.h"
 
 namespace hrad {
 namespace {
@@ -48,6 +49,8 @@ void move_links(State& state, ThreadTeam& team, Exchange& exchange, std::vector<
     put_list(to[static_cast<size_t>(next)], run);
     if (!run.empty()) runs.push_back({static_cast<NodeId>(k), {}});
   }
+  const LightOfAll radiosity(state, &State::radiosity, exchange, team);
+  const LightOfAll irradiance(state, &State::irradiance, exchange, team);
   const std::vector<Bytes> from = comm.exchange(std::move(to));
   std::vector<Taker> taken = takers(from);
   std::vector<std::vector<Link>> arrived;
@@ -65,6 +68,7 @@ void move_links(State& state, ThreadTeam& team, Exchange& exchange, std::vector<
   for (size_t k = 0; k < receivers.size(); ++k) runs.push_back({receivers[k], arrived[k]});
   state.links.replace(std::move(runs), &team);
   exchange.deal_out(std::move(owners));
+  exchange.keep_own_light(state, radiosity[0], irradiance[0]);
   exchange.ask_for_sources(state, team);
 }
 

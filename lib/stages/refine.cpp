@@ -50,11 +50,13 @@ std::vector<int64_t> subtree_links(const State& state) {
 // its own until all owners are through.
 class RefiningRound {
  public:
-  RefiningRound(State& state, const StageTools& tools, const Brightness& brightness)
+  RefiningRound(State& state, const StageTools& tools, const Brightness& brightness,
+                const LightOfAll& radiosity)
       : state_(state),
         tools_(tools),
         exchange_(tools.exchange),
         brightness_(brightness),
+        radiosity_(radiosity),
         old_nodes_(state.forest.nodes.size()),
         weight_(subtree_links(state)),
         work_(state.forest.surfaces.size(), 0.0),
@@ -91,6 +93,7 @@ class RefiningRound {
   const StageTools& tools_;
   Exchange& exchange_;
   const Brightness& brightness_;
+  const LightOfAll& radiosity_;
   const size_t old_nodes_;
   const std::vector<int64_t> weight_;  // of the old nodes
   std::vector<double> work_;           // CPU of each own surface, s
@@ -125,7 +128,7 @@ bool RefiningRound::start(Span<const NodeId> met) {
                            tools_.engine.offset()};
   points_ = std::make_unique<EndPointsTable>(placer, tools_.team);
   memory_.take(points_->bytes(), "sample points of clusters");
-  if (!refine_clusters(state_, tools_, brightness_, *points_, met, memory_, clusters_))
+  if (!refine_clusters(state_, tools_, brightness_, radiosity_, *points_, met, memory_, clusters_))
     return false;
   for (Task& task : tasks_) task.met = std::move(clusters_.met[static_cast<size_t>(task.root)]);
   return true;
@@ -183,7 +186,8 @@ bool RefiningRound::pass() {
   std::vector<SubtreeResult> results(tasks_.size());
   std::vector<std::unique_ptr<SubtreeRefiner>> refiners(tools_.team.size());
   for (auto& refiner : refiners)
-    refiner = std::make_unique<SubtreeRefiner>(state_, tools_, brightness_, points_.get());
+    refiner =
+        std::make_unique<SubtreeRefiner>(state_, tools_, brightness_, radiosity_, points_.get());
   std::vector<double> seconds(tasks_.size(), 0.0);
   std::vector<uint8_t> is_new(tasks_.size(), 0);
   const std::vector<double> work_until = work_in(order);
@@ -226,7 +230,7 @@ void RefiningRound::store(std::vector<SubtreeResult> results) {
   tools_.team.for_each(static_cast<int64_t>(results.size()), [&](int64_t k, int) {
     pass.families[static_cast<size_t>(k)] = new_families(results[static_cast<size_t>(k)]);
   });
-  pass.first = add_families(state_, pass.roots, pass.families, tools_.team);
+  pass.first = add_families(state_, pass.roots, pass.families, tools_.team, exchange_);
   state_.links.resize(state_.forest.nodes.size());
   std::vector<Task> next;
   for (size_t k = 0; k < results.size(); ++k) {
@@ -262,7 +266,7 @@ void RefiningRound::number_anew() {
     }
     exchange_.share_lists(families, surface_of);
     exchange_.share(handed_on, surface_of, tools_.team);
-    const std::vector<NodeId> first = add_families(state_, roots, families, tools_.team);
+    const std::vector<NodeId> first = add_families(state_, roots, families, tools_.team, exchange_);
     for (size_t k = 0; k < own.size(); ++k) {
       passes_[p].roots[k] = roots[own[k]];
       passes_[p].first[k] = first[own[k]];
@@ -320,13 +324,14 @@ void RefiningRound::finish() {
 
 bool link_clusters(State& state, const StageTools& tools, const Brightness& brightness) {
   const NodeId top = state.forest.top();
-  RefiningRound round(state, tools, brightness);
+  const LightOfAll radiosity(state, &State::radiosity, tools.exchange, tools.team);
+  RefiningRound round(state, tools, brightness, radiosity);
   return round.run({&top, 1});
 }
 
 bool refine_links(State& state, const StageTools& tools, const Brightness& brightness,
-                  std::vector<double>* work) {
-  RefiningRound round(state, tools, brightness);
+                  const LightOfAll& radiosity, std::vector<double>* work) {
+  RefiningRound round(state, tools, brightness, radiosity);
   if (!round.run({})) return false;
   if (work) *work = round.work();
   return true;

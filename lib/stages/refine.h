@@ -3,6 +3,7 @@
 // descended. Floor 7 (stages).
 #pragma once
 
+#include "stages/light_of_all.h"
 #include "stages/state.h"
 
 namespace hrad {
@@ -14,7 +15,7 @@ namespace hrad {
 // False: stopped by tools.progress; the state is as it was before. work, if wanted: CPU that
 // each surface of this process's own took, in seconds.
 bool refine_links(State& state, const StageTools& tools, const Brightness& brightness,
-                  std::vector<double>* work = nullptr);
+                  const LightOfAll& radiosity, std::vector<double>* work = nullptr);
 
 // The first round of linking=clusters: from the link of all surfaces with themselves. The forest
 // has its clusters and no elements yet.

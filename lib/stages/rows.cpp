@@ -31,8 +31,7 @@ void stay_near_the_mean(const State& state, Brightness& light) {
     const double exposed = state.forest.surfaces[root].area * state.forest.nodes[root].exposed;
     double largest = 0;
     for (int b = 0; b < state.bands; ++b)
-      largest = std::max(
-          largest, light.unit[b] * state.irradiance[static_cast<size_t>(root) * state.bands + b]);
+      largest = std::max(largest, light.unit[b] * state.irradiance_of(root)[b]);
     sum += exposed * largest;
     area += exposed;
   }
@@ -43,14 +42,14 @@ void stay_near_the_mean(const State& state, Brightness& light) {
 }
 
 Brightness light_of_pilot_rows(State& state, const StageTools& tools) {
-  reset_to_emission(state, tools.team);
+  reset_to_emission(state, tools.team, tools.exchange);
   // Emitters, whose light the leaves have links to before there are rows.
   tools.exchange.ask_for_sources(state, tools.team);
   const OwnRuns runs(state, tools.exchange, tools.team);
   for (int k = 0; k < pilot_sweeps; ++k) sweep(state, tools.team, tools.exchange, runs);
   tools.exchange.finish_update(state, tools.team);
   tools.exchange.share_roots(state, tools.team);
-  Brightness light = brightness_of_nodes(state, tools.team, tools.exchange);
+  Brightness light = brightness_of_known(state, tools.team, tools.exchange);
   stay_near_the_mean(state, light);
   return light;
 }
@@ -87,8 +86,7 @@ double light_over_expected(const State& state, const Brightness& expected) {
     for (int b = 0; b < state.bands; ++b) {
       const double reflectance =
           scene.reflectance[static_cast<size_t>(surface.patch) * state.bands + b];
-      const double light =
-          expected.unit[b] * state.radiosity[static_cast<size_t>(root) * state.bands + b];
+      const double light = expected.unit[b] * state.radiosity_of(root)[b];
       found += surface.area * light * light;
       wanted += surface.area * reflectance * reflectance;
     }
@@ -149,11 +147,13 @@ Outcome link_rows_once(State& state, const StageTools& tools, const RowSettings&
   }
   BrightSpots spots(state, tools, settings, seen, emitters);
   const StageTools last = tools.of_part(piloted, 1);
+  // Many a source of the pilot rows is one no longer.
+  tools.exchange.forget(state);
   if (!trace_cells(state, last, settings, grid, spots, state.cells,
                    rays_by_variance(state, tools, settings, seen, spots), memory))
     return Outcome::stopped;
   mesh.keep_what_is_named();
-  reset_to_emission(state, tools.team);
+  reset_to_emission(state, tools.team, tools.exchange);
   shrink_to_fit(state);
   memory.settle();
   return Outcome::done;
@@ -171,7 +171,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   Outcome outcome = link_rows_once(state, first, settings, share);
   if (outcome == Outcome::too_dark) {
     clear(state);
-    tools.exchange.forget();
+    tools.exchange.forget(state);
     for (size_t root = 0; root < exposed.size(); ++root)
       state.forest.nodes.set_exposed(root, exposed[root]);
     outcome = link_rows_once(state, tools.of_part(done, 1), settings, share);

@@ -13,6 +13,7 @@
 #include "links/oracle.h"
 #include "machine/thread_team.h"
 #include "stages/leaf_points.h"
+#include "stages/light_places.h"
 #include "stages/link_journal.h"
 #include "visibility/exposure.h"
 #include "visibility/visibility.h"
@@ -43,20 +44,33 @@ struct State {
   LinkTable links;            // per receiver
   std::vector<NodeId> cells;  // linking=rows: the elements that own rows, all surfaces covered
   CornerLight direct;
-  // Per node and band: the mean over the exposed part. And a few values more that don't count, for
-  // whoever reads four at a time.
+  // Per place of a node and band: the mean over the exposed part. And a few values more that don't
+  // count, for whoever reads four at a time.
   static constexpr size_t floats_beyond = 4;
+  LightPlaces places;
   GrowingArray<float> radiosity;
   GrowingArray<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
                                    // links brought
-  // Room for the light of all nodes; that of new ones is 0.
+  // Of a node that has a place.
+  const float* radiosity_of(NodeId id) const { return &radiosity[values_before(id)]; }
+  const float* irradiance_of(NodeId id) const { return &irradiance[values_before(id)]; }
+  float* radiosity_of(NodeId id) { return &radiosity[values_before(id)]; }
+  float* irradiance_of(NodeId id) { return &irradiance[values_before(id)]; }
+  size_t values_before(NodeId id) const { return places[id] * static_cast<size_t>(bands); }
+  // Room for light at all places; at new ones it is 0, or anything.
   void resize_light() {
-    const size_t values = forest.nodes.size() * static_cast<size_t>(bands);
+    const size_t before = irradiance.size();
+    resize_light_for_overwrite();
+    for (auto* light : {&radiosity, &irradiance})
+      for (size_t k = before; k < light->size(); ++k) (*light)[k] = 0;
+  }
+  void resize_light_for_overwrite() {
+    const size_t values = places.count() * static_cast<size_t>(bands);
     irradiance.reserve(values);  // not an eighth more, as it may be
-    irradiance.resize(values);
+    irradiance.resize_for_overwrite(values);
     radiosity.reserve(values + floats_beyond);
-    radiosity.resize(values);
-    radiosity.resize(values + floats_beyond);
+    radiosity.resize_for_overwrite(values + floats_beyond);
+    for (size_t k = values; k < radiosity.size(); ++k) radiosity[k] = 0;
   }
   int64_t rays = 0, pairs = 0;
   LinkJournal journal;  // of linking or a round of refinement that is under way

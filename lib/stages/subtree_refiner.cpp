@@ -116,7 +116,7 @@ LinkLoad SubtreeRefiner::load_of(int32_t at, const Link& link, double source_are
   load.may_descend = Forest::is_cluster(source) ||
                      (source.first_child >= 0 &&
                       static_cast<size_t>(source.first_child) < brightness_.of_node.size());
-  const float* radiosity = &state_.radiosity[static_cast<size_t>(link.source) * state_.bands];
+  const float* radiosity = radiosity_[link.source];
   if (tools_.oracle.kind == OracleKind::energy)
     for (int band = 0; band < state_.bands; ++band)
       load.power = std::max(load.power, link.weight * radiosity[band] * load.receiver_area);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "stages/light_of_all.h"
 #include "stages/state.h"
 
 namespace hrad {
@@ -32,11 +33,12 @@ class SubtreeRefiner {
  public:
   // points: of the ends in the present state, where there are clusters.
   SubtreeRefiner(const State& state, const StageTools& tools, const Brightness& brightness,
-                 const EndPointsTable* points = nullptr)
+                 const LightOfAll& radiosity, const EndPointsTable* points = nullptr)
       : state_(state),
         points_(points),
         tools_(tools),
         brightness_(brightness),
+        radiosity_(radiosity),
         sampler_(state.forest, tools.engine, tools.exposure, tools.oracle.seed,
                  tools.oracle.near_ratio) {}
 
@@ -84,6 +86,7 @@ class SubtreeRefiner {
   const EndPointsTable* points_;
   const StageTools& tools_;
   const Brightness& brightness_;
+  const LightOfAll& radiosity_;
   LinkSampler sampler_;
   SubtreeResult result_;
   std::vector<Work> work_;  // beside result_.nodes

@@ -64,7 +64,7 @@ std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exch
     const size_t count = std::min<size_t>(of_a_task, own.data() + own.size() - roots);
     push_pull(
         {&forest.nodes, forest.surfaces.data(), roots, count, state.bands, scene.emission.data(),
-         scene.reflectance.data(), state.irradiance.data(), state.radiosity.data()},
+         scene.reflectance.data(), &state.places, state.irradiance.data(), state.radiosity.data()},
         rows);
     std::vector<ExactSum>& sums = of_thread[static_cast<size_t>(thread)];
     const double* value = rows;
@@ -108,24 +108,38 @@ float brightness_of(const float* radiosity, const std::vector<double>& unit) {
   return static_cast<float>(largest);
 }
 
-float spread_below(const State& state, NodeId id, const std::vector<double>& unit,
-                   std::vector<float>& spread) {
-  const Node& node = state.forest.nodes[id];
+float spread_below(const Forest& forest, const LightOfAll& radiosity, NodeId id,
+                   const std::vector<double>& unit, std::vector<float>& spread) {
+  const NodeId first = forest.nodes.first_child(id);
   spread[id] = 0;
-  if (node.first_child < 0) return 0;
-  const int bands = state.bands;
-  const float* mean = &state.radiosity[static_cast<size_t>(id) * bands];
-  for (int child = 0; child < 4; ++child) {
-    const NodeId below = node.first_child + child;
-    const float inner = spread_below(state, below, unit, spread);
-    const float* value = &state.radiosity[static_cast<size_t>(below) * bands];
+  if (first < 0) return 0;
+  const float* mean = radiosity[id];
+  for (NodeId below = first; below < first + 4; ++below) {
+    const float inner = spread_below(forest, radiosity, below, unit, spread);
+    const float* value = radiosity[below];
     double difference = 0;
-    for (int b = 0; b < bands; ++b)
+    for (size_t b = 0; b < unit.size(); ++b)
       difference =
           std::max(difference, std::fabs(static_cast<double>(value[b]) - mean[b]) * unit[b]);
     spread[id] = std::max(spread[id], static_cast<float>(difference + inner));
   }
   return spread[id];
+}
+
+// Dark yet, in the units that are measured.
+Brightness in_units_of_irradiance(const State& state, ThreadTeam& team, const Exchange& exchange) {
+  const double area = state.forest.total_area();
+  Brightness brightness;
+  brightness.unit = surface_sums(state, team, exchange, [&](NodeId root, double* row) {
+    visit_leaves(state.forest, root, [&](NodeId id, double leaf_area) {
+      const float* irradiance = state.irradiance_of(id);
+      for (int b = 0; b < state.bands; ++b)
+        row[b] += leaf_area * static_cast<double>(irradiance[b]) * irradiance[b];
+    });
+  });
+  for (double& unit : brightness.unit) unit = unit > 0 ? 1 / std::sqrt(unit / area) : 0;
+  brightness.of_node.resize(state.forest.nodes.size());
+  return brightness;
 }
 
 }  // namespace
@@ -154,52 +168,55 @@ void pull_exposure(State& state, ThreadTeam& team) {
   for_each_root(state, team, [&](NodeId root) { pull_exposure_below(state.forest.nodes, root); });
 }
 
-void reset_to_emission(State& state, ThreadTeam& team) {
+void reset_to_emission(State& state, ThreadTeam& team, const Exchange& exchange) {
   const Scene& scene = *state.forest.scene;
   const size_t bands = static_cast<size_t>(state.bands);
-  const size_t values = state.forest.nodes.size() * bands;
-  if (state.irradiance.size() != values) {
-    for (auto* light : {&state.irradiance, &state.radiosity})
-      *light = GrowingArray<float>();  // nothing is to be kept
-    state.irradiance.resize_for_overwrite(values);
-    state.radiosity.reserve(values + State::floats_beyond);
-    state.radiosity.resize_for_overwrite(values);
-  }
-  state.resize_light();  // and what lies beyond
-  for_each_thing(team, state.forest.nodes.size(), [&](size_t k) {
-    std::fill_n(&state.irradiance[k * bands], bands, 0.0f);
-    if (Forest::is_cluster(state.forest.nodes[k])) return;
-    const int32_t patch = state.forest.surfaces[state.forest.nodes[k].surface].patch;
-    for (size_t b = 0; b < bands; ++b)
-      state.radiosity[k * bands + b] =
-          static_cast<float>(scene.emission[static_cast<size_t>(patch) * bands + b]);
+  const NodeArray& nodes = state.forest.nodes;
+  // Nothing is to be kept: what has to grow need not be moved.
+  if (state.places.nodes() != nodes.size())
+    for (auto* light : {&state.irradiance, &state.radiosity}) *light = GrowingArray<float>();
+  exchange.make_places_for_light(state);
+  state.resize_light_for_overwrite();
+  for_each_piece(team, nodes.size(), [&](size_t, size_t begin, size_t end) {
+    state.places.for_each_stretch(begin, end, [&](size_t node, size_t place, size_t count) {
+      std::fill_n(&state.irradiance[place * bands], count * bands, 0.0f);
+      for (float* to = &state.radiosity[place * bands]; count-- > 0; ++node, to += bands) {
+        const int32_t surface = nodes[node].surface;
+        if (surface < 0) {  // a cluster
+          std::fill_n(to, bands, 0.0f);
+          continue;
+        }
+        const size_t patch = static_cast<size_t>(state.forest.surfaces[surface].patch);
+        for (size_t b = 0; b < bands; ++b)
+          to[b] = static_cast<float>(scene.emission[patch * bands + b]);
+      }
+    });
   });
   pull_to_clusters(state);
 }
 
-Brightness brightness_of_nodes(const State& state, ThreadTeam& team, const Exchange& exchange) {
-  const double area = state.forest.total_area();
-  Brightness brightness;
-  brightness.unit = surface_sums(state, team, exchange, [&](NodeId root, double* row) {
-    visit_leaves(state.forest, root, [&](NodeId id, double leaf_area) {
-      const float* irradiance = &state.irradiance[static_cast<size_t>(id) * state.bands];
-      for (int b = 0; b < state.bands; ++b)
-        row[b] += leaf_area * static_cast<double>(irradiance[b]) * irradiance[b];
+Brightness brightness_of_known(const State& state, ThreadTeam& team, const Exchange& exchange) {
+  Brightness brightness = in_units_of_irradiance(state, team, exchange);
+  const size_t bands = static_cast<size_t>(state.bands);
+  for_each_piece(team, brightness.of_node.size(), [&](size_t, size_t begin, size_t end) {
+    state.places.for_each_stretch(begin, end, [&](size_t node, size_t place, size_t count) {
+      const float* radiosity = &state.radiosity[place * bands];
+      for (; count-- > 0; radiosity += bands)
+        brightness.of_node[node++] = brightness_of(radiosity, brightness.unit);
     });
-  });
-  for (double& unit : brightness.unit) unit = unit > 0 ? 1 / std::sqrt(unit / area) : 0;
-  brightness.of_node.resize(state.forest.nodes.size());
-  for_each_thing(team, brightness.of_node.size(), [&](size_t k) {
-    brightness.of_node[k] = brightness_of(&state.radiosity[k * state.bands], brightness.unit);
   });
   return brightness;
 }
 
-Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange) {
-  Brightness brightness = brightness_of_nodes(state, team, exchange);
+Brightness measure_brightness(const State& state, const LightOfAll& radiosity, ThreadTeam& team,
+                              const Exchange& exchange) {
+  Brightness brightness = in_units_of_irradiance(state, team, exchange);
+  for_each_thing(team, brightness.of_node.size(), [&](size_t k) {
+    brightness.of_node[k] = brightness_of(radiosity[static_cast<NodeId>(k)], brightness.unit);
+  });
   brightness.spread.resize(state.forest.nodes.size());
   for_each_root(state, team, [&](NodeId root) {
-    spread_below(state, root, brightness.unit, brightness.spread);
+    spread_below(state.forest, radiosity, root, brightness.unit, brightness.spread);
   });
   spread_to_clusters(state.forest, brightness);
   return brightness;

@@ -4,6 +4,7 @@
 
 #include "stages/exchange.h"
 #include "stages/gather.h"
+#include "stages/light_of_all.h"
 #include "stages/own_runs.h"
 #include "stages/state.h"
 
@@ -23,12 +24,14 @@ std::vector<double> push_pull(State& state, ThreadTeam& team, Exchange& exchange
 // children.
 void pull_exposure(State& state, ThreadTeam& team);
 
-// B = E, H = 0 everywhere: where every solve starts.
-void reset_to_emission(State& state, ThreadTeam& team);
+// B = E, H = 0 everywhere, with room for the light of all nodes: where every solve starts.
+void reset_to_emission(State& state, ThreadTeam& team, const Exchange& exchange);
 
-// Units and brightness from the present radiosity, without and with its spread.
-Brightness brightness_of_nodes(const State& state, ThreadTeam& team, const Exchange& exchange);
-Brightness measure_brightness(const State& state, ThreadTeam& team, const Exchange& exchange);
+// Units and brightness from the present radiosity, without its spread of the nodes whose light a
+// process keeps, and with it of all.
+Brightness brightness_of_known(const State& state, ThreadTeam& team, const Exchange& exchange);
+Brightness measure_brightness(const State& state, const LightOfAll& radiosity, ThreadTeam& team,
+                              const Exchange& exchange);
 
 // Before there is any irradiance: emitters by emission, the rest by the scene's mean
 // interreflection.

@@ -8,19 +8,28 @@
 #include "base/span.h"
 #include "hierarchy/forest.h"
 #include "links/link.h"
+#include "stages/light_places.h"
 
 namespace hrad {
 
 // The values of a node are taken so many at a time.
 constexpr int most_lanes = 4;
 
-// For two to four bands, of `all` links some runs. The first run begins at link `first`, run k ends
-// at ends[k], where the next one begins. sources: bands values per node, and most_lanes more that
-// don't count. Adds to the bands values of `out` of receivers[k] a sum in double precision, in the
+// Of `all` links some runs. The first run begins at link `first`, run k ends at ends[k], where the
+// next one begins, and is that of node first_receiver + receivers[k].
+struct LinkRuns {
+  const Link* links;
+  uint32_t all, first;
+  const uint32_t* ends;
+  NodeId first_receiver;
+  const uint16_t* receivers;
+  size_t count;
+};
+// For two to four bands. sources: bands values per place, and most_lanes more that don't count.
+// Adds to the bands values of `out` of each receiver's place a sum in double precision, in the
 // order of the run.
-using GatherRuns = void (*)(const Link* links, uint32_t all, uint32_t first, const uint32_t* ends,
-                            const uint16_t* receivers, size_t runs, const float* sources, int bands,
-                            float* out);
+using GatherRuns = void (*)(const LinkRuns& runs, const LightPlaces& places, const float* sources,
+                            int bands, float* out);
 
 // The trees of some surfaces.
 struct PushPullRoots {
@@ -30,7 +39,8 @@ struct PushPullRoots {
   size_t count;  // of roots
   int bands;
   const double *emission, *reflectance;  // of all patches, bands values each
-  float *irradiance, *radiosity;         // of all nodes, likewise; that of clusters is pushed, too
+  const LightPlaces* places;
+  float *irradiance, *radiosity;  // likewise, by place; that of clusters is pushed, too
 };
 // E and rho being the same all over a patch, B = E + rho H holds for means too: irradiance alone is
 // pulled. Returns in `sums`, bands values per root, the leaves' irradiance times exposed share, as

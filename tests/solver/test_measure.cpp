@@ -69,7 +69,8 @@ void spoil(Workbench& bench, double factor, Wanted&& wanted) {
 bool everywhere(int32_t) { return true; }
 
 ErrorEstimate estimate(Workbench& bench, double accuracy = 0.02) {
-  return estimate_error(bench.state, bench.tools(settings()), accuracy).value();
+  return estimate_error(bench.state, bench.radiosity_of_all(), bench.tools(settings()), accuracy)
+      .value();
 }
 
 void a_good_solution_is_found_good() {
@@ -136,7 +137,8 @@ void measuring_depends_on_no_threads() {
     Workbench bench(lit_room(0.5), threads);
     solve(bench, 1);
     const ErrorEstimate e = estimate(bench);
-    const PowerBalance balance = measure_balance(bench.state, bench.tools(settings())).value();
+    const PowerBalance balance =
+        measure_balance(bench.state, bench.radiosity_of_all(), bench.tools(settings())).value();
     std::vector<double> all = {e.error, e.standard_error, balance.back_share};
     for (const auto* v :
          {&balance.emitted, &balance.absorbed, &balance.absorbed_back, &balance.escaped})
@@ -160,7 +162,8 @@ void power_adds_up_in_a_closed_room() {
   for (double reflectance : {0.0, 0.7}) {
     Workbench bench(lit_room(reflectance));
     solve(bench);
-    const PowerBalance b = measure_balance(bench.state, bench.tools(settings())).value();
+    const PowerBalance b =
+        measure_balance(bench.state, bench.radiosity_of_all(), bench.tools(settings())).value();
     for (int band = 0; band < 2; ++band) {
       const double emitted = 0.25 * (band ? 8 : 4);
       CHECK_NEAR(b.emitted[band], emitted, 1e-9);
@@ -178,7 +181,8 @@ void power_adds_up_in_a_closed_room() {
 void power_adds_up_between_plates() {
   Workbench bench(builtin_scene("parallel-plates"));
   solve(bench);
-  const PowerBalance b = measure_balance(bench.state, bench.tools(settings())).value();
+  const PowerBalance b =
+      measure_balance(bench.state, bench.radiosity_of_all(), bench.tools(settings())).value();
   for (int band = 0; band < 3; ++band) {
     CHECK_NEAR(b.emitted[band], 1, 1e-9);
     CHECK_NEAR(b.absorbed[band], 0.19982, 0.004);
@@ -194,7 +198,8 @@ void backs_absorb() {
     if (scene.triangle(p).a.z > 0.5) std::swap(scene.corners[p][1], scene.corners[p][2]);
   Workbench bench(std::move(scene));
   solve(bench);
-  const PowerBalance b = measure_balance(bench.state, bench.tools(settings())).value();
+  const PowerBalance b =
+      measure_balance(bench.state, bench.radiosity_of_all(), bench.tools(settings())).value();
   for (int band = 0; band < 3; ++band) {
     CHECK_NEAR(b.absorbed[band], 0, 1e-9);
     CHECK_NEAR(b.absorbed_back[band], 0.19982, 0.01);
@@ -217,7 +222,8 @@ void sealed_emission_is_absorbed_in_the_contact() {
   CHECK_EQUAL(black, 0);
   Workbench bench(std::move(scene));
   solve(bench);
-  const PowerBalance b = measure_balance(bench.state, bench.tools(settings())).value();
+  const PowerBalance b =
+      measure_balance(bench.state, bench.radiosity_of_all(), bench.tools(settings())).value();
   CHECK_NEAR(b.emitted[0], 6, 1e-9);
   CHECK_NEAR(b.absorbed_back[0], 3, 0.4);
   CHECK_NEAR(b.absorbed[0] + b.absorbed_back[0], 6, 0.3);
@@ -250,7 +256,8 @@ void gathering_by_rays_finds_the_light() {
   // Walls that shine evenly, B = 1.5 by reflection; the lamp's own light left out.
   std::fill(bench.scene.emission.begin(), bench.scene.emission.end(), 0.0);
   std::fill(state.radiosity.begin(), state.radiosity.end(), 1.5f);
-  const RayGather rays(state, *bench.engine);
+  const LightOfAll radiosity = bench.radiosity_of_all();
+  const RayGather rays(state, radiosity, *bench.engine);
   double mean[2];
   CHECK(mean_of(rays, {0.3, 0.3, 0.4}, normalized({1, 2, 3}), 5, 256, mean, 2) >= 4096);
   // Only the black back of the lamp takes something away.
@@ -270,8 +277,9 @@ void a_doubted_solution_shows_what_is_lost_over_many_bounces() {
     // There is no lamp: all of this light is a mistake.
     std::fill(bench.state.radiosity.begin(), bench.state.radiosity.end(), 1.0f);
     double trusted, doubted;
-    const RayGather trusting(bench.state, *bench.engine);
-    const RayGather doubting(bench.state, *bench.engine, RayGather::Solution::doubted);
+    const LightOfAll radiosity = bench.radiosity_of_all();
+    const RayGather trusting(bench.state, radiosity, *bench.engine);
+    const RayGather doubting(bench.state, radiosity, *bench.engine, RayGather::Solution::doubted);
     mean_of(trusting, {0.3, 0.3, 0.4}, {0, 0, 1}, 5, 4096, &trusted, 1);
     mean_of(doubting, {0.3, 0.3, 0.4}, {0, 0, 1}, 5, 4096, &doubted, 1);
     CHECK_NEAR(trusted, 1, 1e-6);
@@ -284,7 +292,8 @@ void a_doubted_solution_shows_what_is_lost_over_many_bounces() {
 void gathering_by_rays_finds_the_lamp() {
   Workbench bench(lit_room(0));
   bench.prepare();
-  const RayGather rays(bench.state, *bench.engine);
+  const LightOfAll radiosity = bench.radiosity_of_all();
+  const RayGather rays(bench.state, radiosity, *bench.engine);
   const double x = 0.25 / 0.4, r = std::sqrt(1 + x * x);
   const double factor = 4 * (2 * x / r * std::atan(x / r)) / (2 * pi);
   double mean[2], dark[2];

@@ -38,7 +38,13 @@ struct Field {
       for (int b = 0; b < bands; ++b)
         state.irradiance[static_cast<size_t>(leaf) * bands + b] =
             static_cast<float>(f(forest.triangle(forest.nodes[leaf]).centroid(), b));
-    linear = std::make_unique<Reconstruction>(state, leaves, alone.exchange, 0);
+    linear = reconstructed();
+  }
+
+  std::unique_ptr<Reconstruction> reconstructed() {
+    ThreadTeam team(1);
+    const LightOfAll irradiance(state, &State::irradiance, alone.exchange, team);
+    return std::make_unique<Reconstruction>(state, irradiance, leaves, alone.exchange, 0);
   }
 
   // The value of surface `root` at its (u,v).
@@ -236,8 +242,7 @@ void sides_and_strangers_do_not_mix() {
     return surface.patch >= 2 ? 9.0f : surface.side ? 4.0f : 1.0f;
   };
   for (const Node& node : field.forest.nodes) field.state.irradiance.push_back(value_of(node));
-  field.linear =
-      std::make_unique<Reconstruction>(field.state, field.leaves, field.alone.exchange, 0);
+  field.linear = field.reconstructed();
   for (NodeId root = 0; root < field.forest.surface_count(); ++root)
     for (double u : {0.0, 0.1, 0.5})
       for (double v : {0.0, 0.2, 0.5})

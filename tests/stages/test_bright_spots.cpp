@@ -152,7 +152,7 @@ void threads_and_stops_change_nothing() {
     ++stops;
     clear(state);
     state.rays = 0;
-    stopped.bench.exchange.forget();
+    stopped.bench.exchange.forget(stopped.bench.state);
     stopped.expose_roots();
     state.journal.begin(1, 0, 0);
   }

@@ -218,13 +218,13 @@ void threads_change_no_bit() {
 void a_stop_leaves_the_state_as_it_was() {
   Clustered bench(builtin_scene("furnished-room"), 1),
       untouched(builtin_scene("furnished-room"), 1);
-  const Brightness brightness = measure_brightness(bench.state, bench.team, bench.exchange);
+  const Brightness brightness = bench.brightness();
   // After each number of calls in turn: among the clusters, and among the elements.
   for (int calls : {0, 3, 30}) {
     StageTools tools = bench.tools(fitted(settings(0.3), bench.state));
     int left = calls;
     tools.progress = [&](double) { return left-- > 0; };
-    CHECK(!refine_links(bench.state, tools, brightness));
+    CHECK(!refine_links(bench.state, tools, brightness, bench.radiosity_of_all()));
     CHECK(same(bench.state, untouched.state));
   }
   bench.refine(fitted(settings(0.3), bench.state));
@@ -243,7 +243,8 @@ void a_link_of_the_top_with_itself_is_met_anew() {
     const NodeId top = told.state.forest.top();
     const Link link{top, 0.7f};
     told.state.links.replace({{top, {&link, 1}}});
-    CHECK(refine_links(told.state, told.tools(oracle), expected_brightness(told.state)));
+    CHECK(refine_links(told.state, told.tools(oracle), expected_brightness(told.state),
+                       told.radiosity_of_all()));
     told.sweep(8);
     CHECK(same(told.state, wanted.state));
   }

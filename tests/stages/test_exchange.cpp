@@ -5,6 +5,7 @@
 
 #include "stages/exchange.h"
 #include "stages/gather.h"
+#include "stages/light_of_all.h"
 #include "support/thread_ranks.h"
 #include "support/workbench.h"
 
@@ -41,12 +42,18 @@ void elements_are_asked_for_once() {
     ThreadTeam team(2);
     const int rank = comm.rank();
     split_all(state.forest, 1);
-    state.resize_light();
     // The children of surface k, which know whose they are.
     const auto child = [&](NodeId surface, int k) {
       return state.forest.nodes[surface].first_child + k;
     };
     Exchange exchange(comm, owners_of(state));
+    exchange.make_room_for_light(state);
+    const auto shine = [&](int turn) {
+      for (NodeId k = 0; k < static_cast<NodeId>(state.forest.nodes.size()); ++k)
+        if (exchange.mine(state.forest, k))
+          state.radiosity_of(k)[0] = static_cast<float>(k + 1000 * turn);
+    };
+    shine(-1);
     const NodeId next = (rank + 1) % ranks, last = (rank + 2) % ranks;
     const auto ask = [&](int turn) {
       exchange.ask_for_sources(state, team);
@@ -55,22 +62,18 @@ void elements_are_asked_for_once() {
     // A root, an own element, two of the next rank and one of that after it.
     link_to(state, rank, {next, child(rank, 0), child(next, 0), child(next, 1), child(last, 2)});
     ask(0);
+    const auto at = [&](NodeId id) { return state.radiosity_of(id)[0]; };
+    bool right = at(child(next, 1)) == static_cast<float>(child(next, 1) - 1000) &&
+                 at(child(last, 2)) == static_cast<float>(child(last, 2) - 1000);
     ask(1);  // nothing new
     link_to(state, rank, {child(next, 1), child(next, 3), child(last, 2)});
     ask(2);
     for (int sweep = 0; sweep < 3; ++sweep) {
-      for (NodeId k = 0; k < static_cast<NodeId>(state.forest.nodes.size()); ++k)
-        if (exchange.mine(state.forest, k))
-          state.radiosity[static_cast<size_t>(k * state.bands)] =
-              static_cast<float>(k + 1000 * sweep);
+      shine(sweep);
       exchange.start_update(state, team);
       exchange.finish_update(state, team);
     }
     counts[3][static_cast<size_t>(rank)] = exchange.counts();
-    const auto at = [&](NodeId id) {
-      return state.radiosity[static_cast<size_t>(id * state.bands)];
-    };
-    bool right = true;
     for (NodeId id : {next, child(next, 0), child(next, 1), child(next, 3), child(last, 2)})
       right = right && at(id) == static_cast<float>(id + 2000);
     seen[static_cast<size_t>(rank)] = right && at(child(next, 2)) == 0 ? 1.0f : 0.0f;
@@ -82,11 +85,14 @@ void elements_are_asked_for_once() {
     CHECK_EQUAL(counts[1][rank].messages[0], 2);
     CHECK_EQUAL(counts[2][rank].messages[0], 3);
     CHECK_EQUAL(counts[2][rank].bytes[0], 5 * id_bytes);
-    CHECK_EQUAL(counts[2][rank].messages[1], 0);
-    // Updates go to two ranks in each of three sweeps: five elements of three bands.
+    // Every request is answered once, and updates go to two ranks in each of three sweeps: five
+    // elements of three bands.
+    const auto element_bytes = static_cast<int64_t>(3 * sizeof(float));
+    CHECK_EQUAL(counts[2][rank].messages[1], 3);
+    CHECK_EQUAL(counts[2][rank].bytes[1], 5 * element_bytes);
     CHECK_EQUAL(counts[3][rank].messages[0], 3);
-    CHECK_EQUAL(counts[3][rank].messages[1], 6);
-    CHECK_EQUAL(counts[3][rank].bytes[1], int64_t{3} * 5 * 3 * static_cast<int64_t>(sizeof(float)));
+    CHECK_EQUAL(counts[3][rank].messages[1], 3 + 6);
+    CHECK_EQUAL(counts[3][rank].bytes[1], (1 + 3) * 5 * element_bytes);
     CHECK(seen[rank] == 1.0f);
   }
 }
@@ -100,8 +106,8 @@ void what_needs_no_message_does_not_wait() {
     State state(scene);
     ThreadTeam team(2);
     split_all(state.forest, 1);
-    state.resize_light();
     Exchange exchange(comm, owners_of(state));
+    exchange.make_room_for_light(state);
     const NodeId here = comm.rank(), waiting = here + ranks, next = (here + 1) % ranks;
     const Link own{state.forest.nodes[here].first_child, 0.5f};
     const Link of_next{state.forest.nodes[next].first_child, 0.25f};
@@ -109,22 +115,18 @@ void what_needs_no_message_does_not_wait() {
     state.links.replace({{here, {&own, 1}}, {waiting, {&of_next, 1}}});
     exchange.ask_for_sources(state, team);
     const OwnRuns runs(state, exchange, team);
-    const size_t bands = static_cast<size_t>(state.bands);
-    const auto value = [&](GrowingArray<float>& values, NodeId id) -> float& {
-      return values[static_cast<size_t>(id) * bands];
-    };
-    value(state.radiosity, own.source) = static_cast<float>(here + 1);
+    const auto irradiance = [&](NodeId id) { return state.irradiance_of(id)[0]; };
+    state.radiosity_of(own.source)[0] = static_cast<float>(here + 1);
     std::fill(state.irradiance.begin(), state.irradiance.end(), 7.0f);
     exchange.start_update(state, team);
     gather_what_is_here(state, team, runs, exchange);
     bool all = !runs.all() && runs.blocks().size() == 1 && runs.blocks()[0].any_waits() &&
-               value(state.irradiance, here) == 0.5f * static_cast<float>(here + 1) &&
-               value(state.irradiance, waiting) == 0;
+               irradiance(here) == 0.5f * static_cast<float>(here + 1) && irradiance(waiting) == 0;
     exchange.finish_update(state, team);
     exchange.finish_update(state, team);  // there is none any more
     gather_what_has_come(state, team, runs);
-    all = all && value(state.irradiance, here) == 0.5f * static_cast<float>(here + 1) &&
-          value(state.irradiance, waiting) == 0.25f * static_cast<float>(next + 1);
+    all = all && irradiance(here) == 0.5f * static_cast<float>(here + 1) &&
+          irradiance(waiting) == 0.25f * static_cast<float>(next + 1);
     right[static_cast<size_t>(comm.rank())] = all;
   });
   for (uint8_t r : right) CHECK(r);
@@ -161,7 +163,7 @@ void roots_are_shared() {
     State state(scene);
     const std::vector<int32_t> owner = owners_of(state);
     Exchange exchange(comm, owner);
-    state.resize_light();
+    exchange.make_room_for_light(state);
     const size_t bands = static_cast<size_t>(state.bands);
     for (size_t k = 0; k < owner.size(); ++k)
       if (exchange.mine(static_cast<NodeId>(k))) {
@@ -174,6 +176,58 @@ void roots_are_shared() {
     for (size_t k = 0; k < owner.size(); ++k)
       all = all && state.radiosity[k * bands] == static_cast<float>(k + 1) &&
             state.irradiance[k * bands] == static_cast<float>(2 * k + 1);
+    right[static_cast<size_t>(comm.rank())] = all;
+  });
+  for (uint8_t r : right) CHECK(r);
+}
+
+// A process keeps the light of what is its own or asked for, and of all roots; all of it can be
+// known for a while, and other owners can take over.
+void light_is_kept_by_owners() {
+  const Scene scene = builtin_scene("cornell");
+  std::vector<uint8_t> right(ranks, 0);
+  on_ranks(ranks, [&](Comm& comm) {
+    State state(scene);
+    ThreadTeam team(2);
+    split_all(state.forest, 2);
+    Exchange exchange(comm, owners_of(state));
+    exchange.make_room_for_light(state);
+    const size_t bands = static_cast<size_t>(state.bands);
+    const NodeId roots = static_cast<NodeId>(state.forest.surface_count());
+    const NodeId nodes = static_cast<NodeId>(state.forest.nodes.size());
+    const auto value = [&](NodeId id, size_t band) {
+      return static_cast<float>(10 * id) + static_cast<float>(band);
+    };
+    size_t own = 0;
+    for (NodeId k = 0; k < nodes; ++k) {
+      if (!exchange.mine(state.forest, k)) continue;
+      own += k >= roots;
+      for (size_t b = 0; b < bands; ++b) {
+        state.radiosity_of(k)[b] = value(k, b);
+        state.irradiance_of(k)[b] = -value(k, b);
+      }
+    }
+    bool all = state.places.count() == static_cast<size_t>(roots) + own &&
+               state.radiosity.size() == state.places.count() * bands + State::floats_beyond;
+    const auto has_all = [&](const LightOfAll& light, float sign) {
+      bool same = true;
+      for (NodeId k = 0; k < nodes; ++k)
+        for (size_t b = 0; b < bands; ++b) same = same && light[k][b] == sign * value(k, b);
+      return same;
+    };
+    const LightOfAll radiosity(state, &State::radiosity, exchange, team);
+    const LightOfAll irradiance(state, &State::irradiance, exchange, team);
+    all = all && has_all(radiosity, 1) && has_all(irradiance, -1);
+    // The next rank takes over.
+    std::vector<int32_t> owners = owners_of(state);
+    for (int32_t& owner : owners) owner = (owner + 1) % ranks;
+    exchange.deal_out(owners);
+    exchange.keep_own_light(state, radiosity[0], irradiance[0]);
+    for (NodeId k = 0; k < nodes; ++k)
+      for (size_t b = 0; b < bands && exchange.mine(state.forest, k); ++b)
+        all = all && state.radiosity_of(k)[b] == value(k, b) &&
+              state.irradiance_of(k)[b] == -value(k, b);
+    all = all && has_all(LightOfAll(state, &State::radiosity, exchange, team), 1);
     right[static_cast<size_t>(comm.rank())] = all;
   });
   for (uint8_t r : right) CHECK(r);
@@ -194,7 +248,7 @@ void roots_of_clusters_are_shared() {
     add_clusters(state.forest, items);
     const auto surfaces = static_cast<NodeId>(state.forest.surface_count());
     Exchange exchange(comm, owners_of(state));
-    state.resize_light();
+    exchange.make_room_for_light(state);
     const size_t bands = static_cast<size_t>(state.bands);
     for (NodeId k = 0; k < surfaces; ++k)
       if (exchange.mine(k)) state.radiosity[static_cast<size_t>(k) * bands] = 1;
@@ -220,7 +274,9 @@ void roots_of_clusters_are_shared() {
 int main() {
   const CMUnitTest tests[] = {HRAD_TEST(elements_are_asked_for_once),
                               HRAD_TEST(what_needs_no_message_does_not_wait),
-                              HRAD_TEST(totals_are_exact), HRAD_TEST(roots_are_shared),
+                              HRAD_TEST(totals_are_exact),
+                              HRAD_TEST(roots_are_shared),
+                              HRAD_TEST(light_is_kept_by_owners),
                               HRAD_TEST(roots_of_clusters_are_shared)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -232,10 +232,10 @@ void threads_change_no_bit() {
 void a_stop_leaves_the_state_as_it_was() {
   for (OracleKind kind : kinds) {
     Refined bench(builtin_scene("cornell"), kind, 1), untouched(builtin_scene("cornell"), kind, 1);
-    const Brightness brightness = measure_brightness(bench.state, bench.team, bench.exchange);
+    const Brightness brightness = bench.brightness();
     StageTools tools = bench.tools(settings(kind, 0.3));
     tools.progress = [](double) { return false; };
-    CHECK(!refine_links(bench.state, tools, brightness));
+    CHECK(!refine_links(bench.state, tools, brightness, bench.radiosity_of_all()));
     CHECK(same(bench.state, untouched.state));
     // And the round can be done afterwards, to the same result.
     double last = 0;
@@ -244,7 +244,7 @@ void a_stop_leaves_the_state_as_it_was() {
       last = fraction;
       return true;
     };
-    CHECK(refine_links(bench.state, tools, brightness));
+    CHECK(refine_links(bench.state, tools, brightness, bench.radiosity_of_all()));
     untouched.refine(settings(kind, 0.3));
     CHECK(same(bench.state, untouched.state));
   }

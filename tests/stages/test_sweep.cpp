@@ -134,7 +134,7 @@ void sealed_surfaces_only_emit() {
 void reset_leaves_emission_alone() {
   Tree tree;
   push_pull(tree.state, tree.team, tree.exchange);
-  reset_to_emission(tree.state, tree.team);
+  reset_to_emission(tree.state, tree.team, tree.exchange);
   const size_t count = tree.state.forest.nodes.size() * 2;
   CHECK_EQUAL(tree.state.radiosity.size(), count + State::floats_beyond);
   CHECK_EQUAL(tree.state.irradiance.size(), count);
@@ -214,14 +214,15 @@ void kernels_agree_to_the_bit() {
     for (uint64_t k = 0; k < nodes * bands; ++k)
       sources.push_back(static_cast<float>(unit_interval(mix(k, 4))));
     sources.resize(sources.size() + most_lanes);
-    sweep_kernels_sse2.gather(links.data(), ends.back(), 0, ends.data(), with_links.data(),
-                              ends.size(), sources.data(), bands, narrow.data());
+    const LinkRuns runs = {links.data(),      ends.back(), 0, ends.data(), 0,
+                           with_links.data(), ends.size()};
+    const LightPlaces places;
+    sweep_kernels_sse2.gather(runs, places, sources.data(), bands, narrow.data());
     for (size_t k = 0; k < receivers; ++k)
       for (int b = 0; b < bands; ++b) CHECK((narrow[k * bands + b] > 1) == (k % 5 != 0));
     for (const SweepKernels* kernels : sweep_kernels()) {
       std::vector<float> other(narrow.size(), 1.0f);
-      kernels->gather(links.data(), ends.back(), 0, ends.data(), with_links.data(), ends.size(),
-                      sources.data(), bands, other.data());
+      kernels->gather(runs, places, sources.data(), bands, other.data());
       CHECK(other == narrow);
     }
   }
@@ -273,7 +274,7 @@ void brightness_is_in_units_of_the_irradiance() {
   Tree tree;
   const Forest& forest = tree.state.forest;
   push_pull(tree.state, tree.team, tree.exchange);
-  const Brightness brightness = measure_brightness(tree.state, tree.team, tree.exchange);
+  const Brightness brightness = tree.brightness();
   CHECK_EQUAL(brightness.unit.size(), size_t{2});
   CHECK_EQUAL(brightness.of_node.size(), forest.nodes.size());
   double area = 0;
@@ -300,7 +301,7 @@ void spread_bounds_the_deviation_of_the_leaves() {
   Tree tree;
   Forest& forest = tree.state.forest;
   push_pull(tree.state, tree.team, tree.exchange);
-  const Brightness brightness = measure_brightness(tree.state, tree.team, tree.exchange);
+  const Brightness brightness = tree.brightness();
   int uneven = 0;
   for (NodeId leaf : forest.leaves()) {
     CHECK_EQUAL(brightness.spread[leaf], 0.0f);
@@ -315,15 +316,14 @@ void spread_bounds_the_deviation_of_the_leaves() {
   CHECK(uneven > 100);
   // Even light has none.
   std::fill(tree.state.radiosity.begin(), tree.state.radiosity.end(), 0.5f);
-  for (float spread : measure_brightness(tree.state, tree.team, tree.exchange).spread)
-    CHECK_EQUAL(spread, 0.0f);
+  for (float spread : tree.brightness().spread) CHECK_EQUAL(spread, 0.0f);
 }
 
 void a_dark_band_has_no_unit() {
   Tree tree;
   for (size_t k = 0; k < tree.state.irradiance.size(); k += 2) tree.state.irradiance[k] = 0;
   push_pull(tree.state, tree.team, tree.exchange);
-  const Brightness brightness = measure_brightness(tree.state, tree.team, tree.exchange);
+  const Brightness brightness = tree.brightness();
   CHECK_EQUAL(brightness.unit[0], 0.0);
   CHECK(brightness.unit[1] > 0);
 }
@@ -339,7 +339,7 @@ void expected_brightness_foresees_the_measured_one() {
   for (float value : expected.of_node) CHECK_NEAR(value, 1, 1e-6);
   std::fill(bench.state.irradiance.begin(), bench.state.irradiance.end(), 2.0f);
   push_pull(bench.state, bench.team, bench.exchange);
-  const Brightness measured = measure_brightness(bench.state, bench.team, bench.exchange);
+  const Brightness measured = bench.brightness();
   for (size_t b = 0; b < measured.unit.size(); ++b)
     CHECK_NEAR(measured.unit[b], expected.unit[b], 1e-6);
 }

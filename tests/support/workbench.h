@@ -71,7 +71,7 @@ struct Workbench {
   // Arrays as long as the forest, B = E.
   void prepare() {
     state.links.resize(state.forest.nodes.size());
-    hrad::reset_to_emission(state, team);
+    hrad::reset_to_emission(state, team, exchange);
   }
 
   // The Linking Stage, with the exposed shares of the roots.
@@ -103,9 +103,15 @@ struct Workbench {
     }
   }
 
+  hrad::LightOfAll radiosity_of_all() { return {state, &hrad::State::radiosity, exchange, team}; }
+  hrad::LightOfAll irradiance_of_all() { return {state, &hrad::State::irradiance, exchange, team}; }
+  hrad::Brightness brightness() {
+    return hrad::measure_brightness(state, radiosity_of_all(), team, exchange);
+  }
+
   void refine(const hrad::OracleSettings& oracle) {
-    const hrad::Brightness brightness = hrad::measure_brightness(state, team, exchange);
-    CHECK(hrad::refine_links(state, tools(oracle), brightness));
+    const hrad::LightOfAll radiosity = radiosity_of_all();
+    CHECK(hrad::refine_links(state, tools(oracle), brightness(), radiosity));
   }
 
   hrad::Scene scene;
