@@ -45,6 +45,8 @@ class LinkTable {
   };
   size_t block_count() const { return blocks_.size(); }
   const Block& block(size_t number) const { return blocks_[number]; }
+  // For whoever gives sources other names and these back.
+  std::vector<Link>& links_of_block(size_t number) { return blocks_[number].links; }
 
   int64_t link_count() const;
   // Of the arrays, and of that what the links take.

@@ -101,9 +101,11 @@ bool Solver::Run::link() {
 
 // All but linking follows from the light that the stage begins with.
 void Solver::Run::begin_journal(uint64_t stage) {
-  const bool keeps = params_.resumable != 0 || !state_.journal.empty();
+  // How many processes keep one: each has a parameter of its own.
+  uint64_t keep = params_.resumable != 0 || !state_.journal.empty();
+  exchange_.comm().add_up({&keep, 1});
   const uint64_t light =
-      keeps && stage != stage_of_linking ? hash_of_light_on(state_, exchange_) : 0;
+      keep > 0 && stage != stage_of_linking ? hash_of_light_on(state_, exchange_) : 0;
   const uint64_t key =
       mix(hash_of_linking(params_, solution_.light_hash, solution_.scale), stage, light);
   counted(state_, [&] { state_.journal.begin(key, state_.rays, state_.pairs); });

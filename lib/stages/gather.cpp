@@ -12,23 +12,33 @@ namespace {
 
 static_assert(State::floats_beyond >= most_lanes, "the last source is read beyond its own");
 
-// Any number of bands.
-void gather_run(Span<const Link> links, const State& state, float* out) {
+// Any number of bands. value_at(link.source): in State::radiosity.
+template <class ValueAt>
+void gather_run(Span<const Link> links, const State& state, const ValueAt& value_at, float* out) {
   double sum[most_bands] = {};
   for (const Link& link : links) {
-    const float* source = state.radiosity_of(link.source);
+    const float* source = &state.radiosity[value_at(link.source)];
     for (int band = 0; band < state.bands; ++band)
       sum[band] += static_cast<double>(link.weight) * source[band];
   }
   for (int band = 0; band < state.bands; ++band) out[band] = static_cast<float>(sum[band]);
 }
 
-// Adds what arrives over some runs of one block of receivers, those that wait or the others.
+void gather_run(Span<const Link> links, const State& state, float* out) {
+  gather_run(
+      links, state, [&](NodeId source) { return state.values_before(source); }, out);
+}
+
+// Adds what arrives over some runs of one block of receivers, those that wait or the others, whose
+// sources are places.
 void add_runs(State& state, const LinkTable::Block& block, NodeId first_receiver,
               const OwnRuns::Runs* waits, bool wanted) {
-  uint16_t receivers[LinkTable::receivers_of_a_block];
+  uint32_t receivers[LinkTable::receivers_of_a_block];
   size_t runs = 0;
-  block.has_links.for_each([&](size_t k) { receivers[runs++] = static_cast<uint16_t>(k); });
+  block.has_links.for_each([&](size_t k) {
+    receivers[runs++] =
+        static_cast<uint32_t>(state.places[first_receiver + static_cast<NodeId>(k)]);
+  });
   const bool by_kernel = state.bands >= 2 && state.bands <= most_lanes;
   const size_t bands = static_cast<size_t>(state.bands);
   for (size_t run = 0; run < runs;) {
@@ -39,15 +49,16 @@ void add_runs(State& state, const LinkTable::Block& block, NodeId first_receiver
     uint32_t first = begin > 0 ? block.ends[begin - 1] : 0;
     if (by_kernel) {
       sweep_kernels()[0]->gather({block.links.data(), block.ends.back(), first, &block.ends[begin],
-                                  first_receiver, receivers + begin, run - begin},
-                                 state.places, state.radiosity.data(), state.bands,
-                                 state.irradiance.data());
+                                  receivers + begin, run - begin},
+                                 state.radiosity.data(), state.bands, state.irradiance.data());
       continue;
     }
     for (size_t k = begin; k < run; first = block.ends[k++]) {
       float light[most_bands];
-      gather_run({block.links.data() + first, block.ends[k] - first}, state, light);
-      float* const out = state.irradiance_of(first_receiver + receivers[k]);
+      gather_run(
+          {block.links.data() + first, block.ends[k] - first}, state,
+          [&](NodeId place) { return static_cast<size_t>(place) * bands; }, light);
+      float* const out = &state.irradiance[receivers[k] * bands];
       for (size_t b = 0; b < bands; ++b) out[b] += light[b];
     }
   }

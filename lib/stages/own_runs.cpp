@@ -22,9 +22,11 @@ OwnRuns::Runs waiting(const LinkTable& table, size_t number, const Exchange& exc
 
 }  // namespace
 
-OwnRuns::OwnRuns(const State& state, const Exchange& exchange, ThreadTeam& team) {
+OwnRuns::OwnRuns(State& state, const Exchange& exchange, ThreadTeam& team) {
   if (exchange.alone()) return;
   all_ = false;
+  state_ = &state;
+  team_ = &team;
   const NodeArray& nodes = state.forest.nodes;
   constexpr size_t of_a_block = LinkTable::receivers_of_a_block;
   std::vector<uint8_t> is_own(pieces_of(nodes.size(), of_a_block), 0);
@@ -47,6 +49,26 @@ OwnRuns::OwnRuns(const State& state, const Exchange& exchange, ThreadTeam& team)
     block.waits = {waiting(state.links, block.number, exchange),
                    waiting(state.direct.mean, block.number, exchange)};
   });
+  node_at_.resize(state.places.count());
+  state.places.for_each_stretch(0, state.places.nodes(),
+                                [&](size_t node, size_t place, size_t count) {
+                                  for (; count-- > 0; ++node)
+                                    node_at_[place++] = static_cast<NodeId>(node);
+                                });
+  rename_sources([&](NodeId source) { return static_cast<NodeId>(state.places[source]); });
+}
+
+OwnRuns::~OwnRuns() {
+  if (!all_) rename_sources([&](NodeId place) { return node_at_[static_cast<size_t>(place)]; });
+}
+
+template <class NumberOf>
+void OwnRuns::rename_sources(const NumberOf& number_of) {
+  for (LinkTable* table : {&state_->links, &state_->direct.mean})
+    team_->for_each(static_cast<int64_t>(table->block_count()), [&](int64_t block, int) {
+      for (Link& link : table->links_of_block(static_cast<size_t>(block)))
+        link.source = number_of(link.source);
+    });
 }
 
 }  // namespace hrad

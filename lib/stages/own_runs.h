@@ -13,6 +13,8 @@
 
 namespace hrad {
 
+// While it lives the sources of own links are not ids but places of their light, so that sweeps
+// need not look these up: nobody else may look at links then.
 class OwnRuns {
  public:
   // A bit for each run of a block, in order.
@@ -27,16 +29,25 @@ class OwnRuns {
 
   // All of them, and none that waits: of a process that is alone.
   OwnRuns() = default;
-  // As it stands once it has asked for its sources.
-  OwnRuns(const State& state, const Exchange& exchange, ThreadTeam& team);
+  // As it stands once it has asked for its sources. state and team must outlive this.
+  OwnRuns(State& state, const Exchange& exchange, ThreadTeam& team);
+  ~OwnRuns();
+  OwnRuns(const OwnRuns&) = delete;
+  OwnRuns& operator=(const OwnRuns&) = delete;
 
   bool all() const { return all_; }
   const std::vector<Block>& blocks() const { return blocks_; }
-  int64_t bytes() const { return static_cast<int64_t>(blocks_.capacity() * sizeof(Block)); }
+  int64_t bytes() const { return bytes_in(blocks_) + bytes_in(node_at_); }
 
  private:
+  template <class NumberOf>
+  void rename_sources(const NumberOf& number_of);
+
   bool all_ = true;
   std::vector<Block> blocks_;
+  State* state_ = nullptr;
+  ThreadTeam* team_ = nullptr;
+  std::vector<NodeId> node_at_;  // per place
 };
 
 }  // namespace hrad

@@ -15,21 +15,19 @@ namespace hrad {
 // The values of a node are taken so many at a time.
 constexpr int most_lanes = 4;
 
-// Of `all` links some runs. The first run begins at link `first`, run k ends at ends[k], where the
-// next one begins, and is that of node first_receiver + receivers[k].
+// Of `all` links, whose sources are places of light, some runs. The first run begins at link
+// `first`, run k ends at ends[k], where the next one begins, and arrives at place receivers[k].
 struct LinkRuns {
   const Link* links;
   uint32_t all, first;
   const uint32_t* ends;
-  NodeId first_receiver;
-  const uint16_t* receivers;
+  const uint32_t* receivers;
   size_t count;
 };
 // For two to four bands. sources: bands values per place, and most_lanes more that don't count.
-// Adds to the bands values of `out` of each receiver's place a sum in double precision, in the
-// order of the run.
-using GatherRuns = void (*)(const LinkRuns& runs, const LightPlaces& places, const float* sources,
-                            int bands, float* out);
+// Adds to the bands values of each receiver in `out` a sum in double precision, in the order of the
+// run.
+using GatherRuns = void (*)(const LinkRuns& runs, const float* sources, int bands, float* out);
 
 // The trees of some surfaces.
 struct PushPullRoots {

@@ -199,14 +199,14 @@ void kernels_agree_to_the_bit() {
   constexpr size_t nodes = 500, receivers = 200;
   std::vector<Link> links;
   std::vector<uint32_t> ends;
-  std::vector<uint16_t> with_links;
+  std::vector<uint32_t> with_links;
   for (uint64_t k = 0; k < receivers; ++k) {
     if (k % 5 == 0) continue;
     for (uint64_t m = 0; m < 1 + mix(k, 1) % 70; ++m)
       links.push_back({static_cast<NodeId>(mix(k, m, 2) % nodes),
                        static_cast<float>(unit_interval(mix(k, m, 3)))});
     ends.push_back(static_cast<uint32_t>(links.size()));
-    with_links.push_back(static_cast<uint16_t>(k));
+    with_links.push_back(static_cast<uint32_t>(k));
   }
   links.back() = {nodes - 1, 0.5f};
   for (int bands = 2; bands <= most_lanes; ++bands) {
@@ -214,15 +214,14 @@ void kernels_agree_to_the_bit() {
     for (uint64_t k = 0; k < nodes * bands; ++k)
       sources.push_back(static_cast<float>(unit_interval(mix(k, 4))));
     sources.resize(sources.size() + most_lanes);
-    const LinkRuns runs = {links.data(),      ends.back(), 0, ends.data(), 0,
-                           with_links.data(), ends.size()};
-    const LightPlaces places;
-    sweep_kernels_sse2.gather(runs, places, sources.data(), bands, narrow.data());
+    const LinkRuns runs = {links.data(), ends.back(),       0,
+                           ends.data(),  with_links.data(), ends.size()};
+    sweep_kernels_sse2.gather(runs, sources.data(), bands, narrow.data());
     for (size_t k = 0; k < receivers; ++k)
       for (int b = 0; b < bands; ++b) CHECK((narrow[k * bands + b] > 1) == (k % 5 != 0));
     for (const SweepKernels* kernels : sweep_kernels()) {
       std::vector<float> other(narrow.size(), 1.0f);
-      kernels->gather(runs, places, sources.data(), bands, other.data());
+      kernels->gather(runs, sources.data(), bands, other.data());
       CHECK(other == narrow);
     }
   }
