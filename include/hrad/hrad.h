@@ -405,8 +405,9 @@ typedef struct hrad_stats {
   double cpu_seconds;         /* user CPU spent in solves, of all ranks together */
   int64_t memory_peak_bytes;  /* of the rank that needed most, as the next two */
   int64_t link_bytes, node_bytes; /* memory of links and of nodes at the end */
-  /* Between ranks: [0] R, ids of elements whose radiosity is asked for; [1] U, radiosity of these;
-   * [2] T, the radiosity transported, and the light on patches where all ranks need it. */
+  /* Between ranks: [0] R, ids of elements whose radiosity is asked for; [1] U, radiosity of these,
+   * when they are asked for and after every sweep; [2] T, the radiosity transported, and the light
+   * on patches where all ranks need it. */
   int64_t messages[3], message_bytes[3];
   int64_t swept_links; /* of the links, those that sweeps read; the rest brings direct light to
                           single points, for pictures and queries */

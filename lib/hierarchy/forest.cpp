@@ -48,15 +48,11 @@ NodeId Forest::root(int64_t patch, int32_t side) const {
   return scene->has(patch, patch_two_sided) ? first + 1 : -1;
 }
 
-// The places are found on the way down: a look at a stem a level is all that memory has to serve.
+// A look at a stem a level is all that memory has to serve.
 NodeId Forest::leaf_at(NodeId root, double u, double v) const {
-  LatticePlace place;
+  WayDown way(u, v);
   NodeId id = root;
-  for (NodeId first; (first = nodes.first_child(id)) >= 0;) {
-    const int part = part_at(place, u, v);
-    place = part_of(place, part);
-    id = first + part;
-  }
+  for (NodeId first; (first = nodes.first_child(id)) >= 0;) id = first + way.next();
   return id;
 }
 
@@ -72,11 +68,12 @@ NodeId Forest::leaf_met(const Hit& hit) const {
 
 void Forest::leaves_met(Span<const Hit> hits, NodeId* leaves) const {
   size_t going_down[most_met], count = 0;
-  LatticePlace place[most_met];
+  WayDown way[most_met];
   for (size_t k = 0; k < hits.size(); ++k) {
     leaves[k] = root_met(hits[k]);
     if (leaves[k] < 0) continue;
     nodes.prefetch(leaves[k]);
+    way[k] = hits[k].back ? WayDown(hits[k].v, hits[k].u) : WayDown(hits[k].u, hits[k].v);
     going_down[count++] = k;
   }
   // All of them by one level.
@@ -86,10 +83,7 @@ void Forest::leaves_met(Span<const Hit> hits, NodeId* leaves) const {
       const size_t k = going_down[at];
       const NodeId first = nodes.first_child(leaves[k]);
       if (first < 0) continue;
-      const Hit& hit = hits[k];
-      const int part = hit.back ? part_at(place[k], hit.v, hit.u) : part_at(place[k], hit.u, hit.v);
-      place[k] = part_of(place[k], part);
-      leaves[k] = first + part;
+      leaves[k] = first + way[k].next();
       nodes.prefetch(leaves[k]);
       going_down[left++] = k;
     }

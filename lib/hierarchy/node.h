@@ -63,12 +63,32 @@ inline void root_coordinates(const LatticePlace& n, double x, double y, double* 
   *u = (n.i + (n.inverted ? 1 - x : x)) / scale;
   *v = (n.j + (n.inverted ? 1 - y : y)) / scale;
 }
-// The part that holds a point of the root triangle.
-inline int part_at(const LatticePlace& n, double u, double v) {
-  double x, y;
-  element_coordinates(n, u, v, &x, &y);
-  return x > 0.5 ? 1 : y > 0.5 ? 2 : x + y < 0.5 ? 0 : 3;
-}
+
+// From the root triangle down to smaller and smaller elements that hold one of its points, with
+// nothing for a processor to guess: which part a point is in is as good as chance.
+class WayDown {
+ public:
+  WayDown() = default;
+  WayDown(double u, double v) : x_(u), y_(v) {}
+  // Into the part of the present element that holds the point: its number.
+  int next() {
+    const double x = from_ + towards_ * x_, y = from_ + towards_ * y_;
+    const int at_second = x > 0.5, at_third = y > 0.5, in_middle = !(x + y < 0.5);
+    const int part = at_second + (1 - at_second) * (2 * at_third + 3 * (1 - at_third) * in_middle);
+    const int upright = towards_ > 0;
+    // What part_of() adds to i and j; all of this is exact.
+    x_ = 2 * x_ - ((part == 1) == upright);
+    y_ = 2 * y_ - ((part == 2) == upright);
+    const double turn = 1 - 2 * (part == 3);
+    towards_ *= turn;
+    from_ = (1 - towards_) / 2;
+    return part;
+  }
+
+ private:
+  double x_ = 0, y_ = 0;           // as if the present element stood upright, measured from (i,j)
+  double from_ = 0, towards_ = 1;  // of an inverted one: 1 and -1
+};
 
 // All of it, a value of its own. Of a cluster only parent, surface and exposed mean anything.
 struct Node : LatticePlace {

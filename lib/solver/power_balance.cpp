@@ -29,7 +29,8 @@ std::optional<PowerBalance> measure_balance(State& state, const LightOfAll& radi
   for (auto* v : {&balance.emitted, &balance.absorbed, &balance.absorbed_back, &balance.escaped})
     v->assign(bands, 0.0);
   // Leaving power of the exposed part of every leaf, in relative units of its strongest band.
-  const LightOfAll irradiance(state, &State::irradiance, tools.exchange, tools.team);
+  std::optional<LightOfAll> irradiance(std::in_place, state, &State::irradiance, tools.exchange,
+                                       tools.team);
   const std::vector<NodeId> leaves = forest.leaves();
   std::vector<double> leaving(bands, 0.0);
   for (NodeId id : leaves) {
@@ -38,12 +39,13 @@ std::optional<PowerBalance> measure_balance(State& state, const LightOfAll& radi
     const size_t patch = static_cast<size_t>(forest.surfaces[node.surface].patch) * bands;
     for (int b = 0; b < bands; ++b) {
       balance.emitted[b] += area * scene.emission[patch + b];
-      balance.absorbed[b] += exposed * (1 - scene.reflectance[patch + b]) * irradiance[id][b];
+      balance.absorbed[b] += exposed * (1 - scene.reflectance[patch + b]) * (*irradiance)[id][b];
       // What a sealed part emits is absorbed in the contact.
       balance.absorbed_back[b] += (area - exposed) * scene.emission[patch + b];
       leaving[b] += exposed * radiosity[id][b];
     }
   }
+  irradiance.reset();
   std::vector<double> weights(leaves.size(), 0.0);
   for (size_t k = 0; k < leaves.size(); ++k) {
     const Node& node = forest.nodes[leaves[k]];

@@ -69,8 +69,8 @@ const Reconstruction& Solver::reconstruction() const {
   Solution& s = *solution_;
   if (!s.answers.reconstruction) {
     const RowSettings rows = rows_of(params_, s.state.forest, s.inspection.mean_distance, s.scale);
-    auto made = std::make_unique<Reconstruction>(s.state, irradiance_of_all(), leaves(),
-                                                 *s.exchange, rows.cell_area);
+    auto made =
+        std::make_unique<Reconstruction>(s.state, leaves(), *s.exchange, *s.team, rows.cell_area);
     comm_->all_go_on();
     s.answers.reconstruction = std::move(made);
   }

@@ -107,8 +107,9 @@ double weight_of_mean(const Forest& forest, NodeId id) {
 }
 
 // From all that arrives over the leaves.
-LinearField field_of_means(const State& state, const LightOfAll& irradiance,
-                           const std::vector<NodeId>& leaves) {
+LinearField field_of_means(State& state, const std::vector<NodeId>& leaves,
+                           const Exchange& exchange, ThreadTeam& team) {
+  const LightOfAll irradiance(state, &State::irradiance, exchange, team);
   const auto mean = [&](NodeId id, double* values) {
     std::copy_n(irradiance[id], state.bands, values);
     return weight_of_mean(state.forest, id);
@@ -172,12 +173,11 @@ LinearField field_of_rows(const State& state, const std::vector<NodeId>& leaves,
 
 }  // namespace
 
-Reconstruction::Reconstruction(const State& state, const LightOfAll& irradiance,
-                               const std::vector<NodeId>& leaves, const Exchange& exchange,
-                               double cell_area)
+Reconstruction::Reconstruction(State& state, const std::vector<NodeId>& leaves,
+                               const Exchange& exchange, ThreadTeam& team, double cell_area)
     : bands_(state.bands),
       field_(has_points(state) ? field_of_rows(state, leaves, exchange, cell_area)
-                               : field_of_means(state, irradiance, leaves)) {}
+                               : field_of_means(state, leaves, exchange, team)) {}
 
 void Reconstruction::at(NodeId leaf, double u, double v, double* out) const {
   std::fill(out, out + bands_, 0.0);

@@ -16,8 +16,8 @@ namespace hrad {
 class Reconstruction {
  public:
   // cell_area: of rows, what their cells are no larger than. Collective.
-  Reconstruction(const State& state, const LightOfAll& irradiance,
-                 const std::vector<NodeId>& leaves, const Exchange& exchange, double cell_area);
+  Reconstruction(State& state, const std::vector<NodeId>& leaves, const Exchange& exchange,
+                 ThreadTeam& team, double cell_area);
 
   // Irradiance at the three corners of a leaf, in the order of Forest::triangle: 3*bands values.
   void corners(NodeId leaf, double* out) const { field_.corners(leaf, out); }

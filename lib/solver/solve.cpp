@@ -112,7 +112,7 @@ void Solver::Run::forget_measurements() {
 
 void Solver::Run::clear_state() {
   clear(state_);
-  exchange_.forget(state_);
+  counted(state_, [&] { exchange_.forget(state_); });
 }
 
 // Measures the solution and makes it ready for queries.

@@ -55,6 +55,7 @@ class Solver::Run {
   bool link_by_clusters();
   bool link_by_rows();
   bool round();
+  bool refine(int number);
   // Seconds that are still to come, as far as anybody knows (solve_stages.cpp).
   double of_measuring() const;
   double of_solving_again() const;

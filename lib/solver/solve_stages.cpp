@@ -153,9 +153,7 @@ bool Solver::Run::round() {
   if (work_.empty()) work_ = links_of_surfaces(state_, exchange_);
   rebalance(state_, *solution_.team, exchange_, work_);
   begin_journal(static_cast<uint64_t>(number));
-  const LightOfAll radiosity(state_, &State::radiosity, exchange_, *solution_.team);
-  const Brightness brightness = measure_brightness(state_, radiosity, *solution_.team, exchange_);
-  const bool done = refine_links(state_, tools(number), brightness, radiosity, &work_);
+  const bool done = refine(number);
   solver_.stats_.seconds_iterative +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!done) return false;
@@ -164,6 +162,12 @@ bool Solver::Run::round() {
   ++solver_.stats_.rounds;
   solution_.rounds_done = number;
   return sweep(number);
+}
+
+bool Solver::Run::refine(int number) {
+  const LightOfAll radiosity(state_, &State::radiosity, exchange_, *solution_.team);
+  const Brightness brightness = measure_brightness(state_, radiosity, *solution_.team, exchange_);
+  return refine_links(state_, tools(number), brightness, radiosity, &work_);
 }
 
 double Solver::Run::of_later_rounds(int done, double seconds_of_last) const {

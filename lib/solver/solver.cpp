@@ -195,7 +195,7 @@ Stats Solver::counts() const {
     s.message_bytes[kind] = solution.exchange->counts().bytes[kind];
   }
   s.link_bytes = bytes_of_links(state);
-  s.node_bytes = bytes_of_nodes(state) + bytes_in(solution.answers.leaves);
+  s.node_bytes = bytes_of_nodes(state);
   s.area = s.sealed_area = 0;
   for (size_t k = 0; k < state.forest.surfaces.size(); ++k) {
     s.area += state.forest.surfaces[k].area;

@@ -1,6 +1,7 @@
 // What the owners of surfaces tell each other (paper, Section 3.1): the results of tasks, each done
 // by one of them, and radiosity. Elements are known to all; links only to the owner of their
-// receiver. With one owner of everything nothing is exchanged. Floor 7 (stages).
+// receiver, and light to that of its element and to whoever has asked for it. With one owner of
+// everything nothing is exchanged. Floor 7 (stages).
 #pragma once
 
 #include <utility>

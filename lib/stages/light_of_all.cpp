@@ -13,7 +13,8 @@ LightOfAll::LightOfAll(State& state, GrowingArray<float> State::*quantity, const
   const Forest& forest = state.forest;
   const GrowingArray<float>& known = state.*quantity;
   const size_t nodes = forest.nodes.size(), values = nodes * bands_;
-  memory_.take(static_cast<int64_t>(values * sizeof(float)), "light of all elements");
+  const int64_t all_bytes = static_cast<int64_t>(values * sizeof(float));
+  memory_.take(2 * all_bytes, "light of all elements");  // as messages, too
   told_.reserve(values);
   told_.resize_for_overwrite(values);
   const size_t roots = exchange.owners().size(), first = forest.nodes.first_element();
@@ -29,6 +30,7 @@ LightOfAll::LightOfAll(State& state, GrowingArray<float> State::*quantity, const
         std::memcpy(to, own, bytes);
       },
       [&](size_t k, const char* from) { std::memcpy(&told_[node_of(k) * bands_], from, bytes); });
+  memory_.take(-all_bytes, "");
   values_ = &told_;
 }
 

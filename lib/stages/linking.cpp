@@ -219,8 +219,8 @@ bool link_pairs(State& state, const StageTools& tools, const Brightness& brightn
   if (!done) return false;
   memory.take(2 * search.bytes_found(), "links");  // each in both directions, in two places a while
   state.links = search.collect(from_others);
-  memory.settle();
   tools.exchange.ask_for_sources(state, tools.team);
+  memory.settle();
   return true;
 }
 

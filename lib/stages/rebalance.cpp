@@ -6,6 +6,7 @@
 
 #include "partition/partition.h"
 #include "stages/light_of_all.h"
+#include "stages/state_memory.h"
 
 namespace hrad {
 namespace {
@@ -66,10 +67,13 @@ void move_links(State& state, ThreadTeam& team, Exchange& exchange, std::vector<
       receivers.push_back(static_cast<NodeId>(k));
   }
   for (size_t k = 0; k < receivers.size(); ++k) runs.push_back({receivers[k], arrived[k]});
-  state.links.replace(std::move(runs), &team);
-  exchange.deal_out(std::move(owners));
-  exchange.keep_own_light(state, radiosity[0], irradiance[0]);
-  exchange.ask_for_sources(state, team);
+  counted(state, [&] {
+    state.links.replace(std::move(runs), &team);
+    exchange.deal_out(std::move(owners));
+    exchange.keep_own_light(state, radiosity[0], irradiance[0]);
+    exchange.ask_for_sources(state, team);
+    shrink_to_fit(state);
+  });
 }
 
 }  // namespace

@@ -315,9 +315,9 @@ void RefiningRound::finish() {
         state_.links[k].count() > 0)
       sealed.push_back({static_cast<NodeId>(k), {}});
   state_.links.replace(std::move(sealed), &tools_.team);
+  tools_.exchange.ask_for_sources(state_, tools_.team);
   shrink_to_fit(state_);
   memory_.settle();
-  tools_.exchange.ask_for_sources(state_, tools_.team);
 }
 
 }  // namespace

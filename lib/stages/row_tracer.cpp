@@ -223,6 +223,7 @@ bool trace_rows(State& state, const StageTools& tools, const RowSettings& settin
   }
   if (!tools.exchange.all_go_on(going_on)) return false;
   tools.exchange.ask_for_sources(state, tools.team);
+  memory.settle();
   return true;
 }
 

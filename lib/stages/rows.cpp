@@ -171,7 +171,7 @@ bool link_rows(State& state, const StageTools& tools, const RowSettings& setting
   Outcome outcome = link_rows_once(state, first, settings, share);
   if (outcome == Outcome::too_dark) {
     clear(state);
-    tools.exchange.forget(state);
+    counted(state, [&] { tools.exchange.forget(state); });
     for (size_t root = 0; root < exposed.size(); ++root)
       state.forest.nodes.set_exposed(root, exposed[root]);
     outcome = link_rows_once(state, tools.of_part(done, 1), settings, share);

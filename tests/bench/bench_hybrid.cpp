@@ -22,10 +22,19 @@ bool counts(const std::string& stage) {
 }
 bool is_initial(const std::string& stage) { return stage == kInitial; }
 
-Solved solve(const std::string& scene, const Settings& settings, int ranks, int repeat) {
-  Solved solved = recorded_solve(scene, settings, ranks);
-  for (int turn = 1; turn < repeat; ++turn)
-    keep_the_least(solved.recording, recorded_solve(scene, settings, ranks).recording);
+// Of each number of ranks, turn after turn, as the machine may be faster or slower for a while: of
+// what each task took the least counts.
+std::map<int, Solved> solve(const std::string& scene, const Settings& settings,
+                            const std::vector<int>& ranks, int repeat) {
+  std::map<int, Solved> solved;
+  for (int turn = 0; turn < repeat; ++turn)
+    for (int number : ranks) {
+      Solved again = recorded_solve(scene, settings, number);
+      if (turn == 0)
+        solved[number] = std::move(again);
+      else
+        keep_the_least(solved[number].recording, again.recording);
+    }
   return solved;
 }
 
@@ -239,8 +248,7 @@ void project(const std::string& scene, const std::string& linking, const HybridO
   std::printf("\n## %s, %s", scene.c_str(), linking.c_str());
   for (const auto& [name, value] : settings) std::printf(", %s=%s", name.c_str(), value.c_str());
   std::printf("\n\n");
-  std::map<int, Solved> solved;
-  for (int nodes : o.nodes) solved[nodes] = solve(scene, settings, nodes, o.repeat);
+  const std::map<int, Solved> solved = solve(scene, settings, o.nodes, o.repeat);
   print_table(scene, solved, o, settings);
   std::printf("\n");
   const int most = solved.rbegin()->first;
@@ -253,7 +261,7 @@ void project(const std::string& scene, const std::string& linking, const HybridO
     const std::string other = o.partition == "grid" ? "cost" : "grid";
     Settings others = settings;
     others.emplace_back("partition", other);
-    print_balance(other.c_str(), solve(scene, others, most, 1), one.tasks);
+    print_balance(other.c_str(), solve(scene, others, {most}, 1).at(most), one.tasks);
   }
   print_loops(solved.at(1).recording, solved.at(most).recording, o);
   const int threads = std::min(8, *std::max_element(o.threads.begin(), o.threads.end()));

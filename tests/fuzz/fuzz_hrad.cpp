@@ -46,8 +46,7 @@ void use(hrad::CheckpointContent& content) {
   const auto leaves = state.forest.leaves();
   std::vector<double> light(3 * static_cast<size_t>(state.bands));
   hrad_test::Alone alone(state);
-  const hrad::LightOfAll irradiance(state, &hrad::State::irradiance, alone.exchange, team);
-  const hrad::Reconstruction linear(state, irradiance, leaves, alone.exchange, 1);
+  const hrad::Reconstruction linear(state, leaves, alone.exchange, team, 1);
   for (hrad::NodeId leaf : leaves) linear.corners(leaf, light.data());
   hrad::gather(state, team);
   hrad::push_pull(state, team, alone.exchange);

@@ -99,14 +99,20 @@ void values_of_a_node_are_its_own() {
   CHECK_EQUAL(nodes[parent].exposed, share(parent));
 }
 
-// Down to the element that holds a point: the same by places found on the way and by coordinates.
+// Down to the element that holds a point.
 void a_point_lies_in_one_part() {
   for (uint64_t k = 0; k < 2000; ++k) {
     double u = unit_interval(mix(k, 1)), v = unit_interval(mix(k, 2));
     if (u + v > 1) u = 1 - u, v = 1 - v;
     LatticePlace place;
-    for (int level = 0; level < max_level; ++level) place = part_of(place, part_at(place, u, v));
+    WayDown way(u, v);
     double x, y;
+    for (int level = 0; level < max_level; ++level) {
+      element_coordinates(place, u, v, &x, &y);
+      const int part = way.next();
+      CHECK_EQUAL(part, x > 0.5 ? 1 : y > 0.5 ? 2 : x + y < 0.5 ? 0 : 3);
+      place = part_of(place, part);
+    }
     element_coordinates(place, u, v, &x, &y);
     CHECK(x >= -1e-9 && y >= -1e-9 && x + y <= 1 + 1e-9);
     double back_u, back_v;

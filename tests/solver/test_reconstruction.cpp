@@ -43,8 +43,7 @@ struct Field {
 
   std::unique_ptr<Reconstruction> reconstructed() {
     ThreadTeam team(1);
-    const LightOfAll irradiance(state, &State::irradiance, alone.exchange, team);
-    return std::make_unique<Reconstruction>(state, irradiance, leaves, alone.exchange, 0);
+    return std::make_unique<Reconstruction>(state, leaves, alone.exchange, team, 0);
   }
 
   // The value of surface `root` at its (u,v).
