@@ -57,7 +57,7 @@ void Exchange::make_places_for_light(State& state) const {
   places.resize(nodes.size());
   if (!alone())
     for (; first < nodes.size(); first += 4)
-      if (mine(nodes[first].surface)) places.add_family(static_cast<NodeId>(first));
+      if (mine(nodes[first].surface)) places.add_own_family(static_cast<NodeId>(first));
 }
 
 void Exchange::keep_own_light(State& state, const float* radiosity, const float* irradiance) const {

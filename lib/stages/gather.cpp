@@ -68,11 +68,11 @@ size_t first_of_block(size_t number) { return number * LinkTable::receivers_of_a
 
 void set_to_nothing(State& state, size_t number) {
   const size_t first = first_of_block(number), bands = static_cast<size_t>(state.bands);
-  state.places.for_each_stretch(first, first + state.links.block(number).has_links.size(),
-                                [&](size_t, size_t place, size_t count) {
-                                  std::fill_n(&state.irradiance[place * bands], count * bands,
-                                              0.0f);
-                                });
+  const auto set = [&](size_t, size_t place, size_t count) {
+    if (place < state.places.end_of_own())
+      std::fill_n(&state.irradiance[place * bands], count * bands, 0.0f);
+  };
+  state.places.for_each_stretch(first, first + state.links.block(number).has_links.size(), set);
 }
 
 // waits: of both tables, nullptr: no run does.

@@ -21,11 +21,17 @@ class LightPlaces {
 
   size_t nodes() const { return nodes_; }
   size_t count() const { return of_some_ ? count_ : nodes_; }  // of places
+  // Those from this one on are of elements that belong to others, whose radiosity alone matters.
+  size_t end_of_own() const { return of_some_ ? end_of_own_ : nodes_; }
   // So many nodes: new ones have no place yet, and those behind lose theirs, to whom the last
   // places belong.
   void resize(size_t nodes);
   // A place for an element and its three brothers, whose first this is, side by side.
   void add_family(NodeId first);
+  void add_own_family(NodeId first) {
+    add_family(first);
+    end_of_own_ = count_;
+  }
 
   // Where a node has its light, if it has a place.
   size_t operator[](NodeId id) const {
@@ -74,7 +80,7 @@ class LightPlaces {
 
   bool of_some_ = false;
   uint32_t shift_ = 0;
-  size_t nodes_ = 0, count_ = 0, first_element_ = 0;
+  size_t nodes_ = 0, count_ = 0, end_of_own_ = 0, first_element_ = 0;
   GrowingArray<int32_t> first_;  // per four nodes the place of the first
 };
 

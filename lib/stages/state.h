@@ -2,6 +2,7 @@
 // Floor 7 (stages).
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -49,8 +50,9 @@ struct State {
   static constexpr size_t floats_beyond = 4;
   LightPlaces places;
   GrowingArray<float> radiosity;
-  GrowingArray<float> irradiance;  // likewise; between gather() and push_pull() what the node's own
-                                   // links brought
+  // Likewise, but of own places; between gather() and push_pull() what the node's own links
+  // brought.
+  GrowingArray<float> irradiance;
   // Of a node that has a place.
   const float* radiosity_of(NodeId id) const { return &radiosity[values_before(id)]; }
   const float* irradiance_of(NodeId id) const { return &irradiance[values_before(id)]; }
@@ -59,15 +61,18 @@ struct State {
   size_t values_before(NodeId id) const { return places[id] * static_cast<size_t>(bands); }
   // Room for light at all places; at new ones it is 0, or anything.
   void resize_light() {
-    const size_t before = irradiance.size();
+    const size_t irradiance_before = irradiance.size(), radiosity_before = radiosity.size();
     resize_light_for_overwrite();
-    for (auto* light : {&radiosity, &irradiance})
-      for (size_t k = before; k < light->size(); ++k) (*light)[k] = 0;
+    for (size_t k = irradiance_before; k < irradiance.size(); ++k) irradiance[k] = 0;
+    for (size_t k = std::max(radiosity_before, floats_beyond) - floats_beyond; k < radiosity.size();
+         ++k)
+      radiosity[k] = 0;
   }
   void resize_light_for_overwrite() {
+    const size_t own = places.end_of_own() * static_cast<size_t>(bands);
+    irradiance.reserve(own);  // not an eighth more, as it may be
+    irradiance.resize_for_overwrite(own);
     const size_t values = places.count() * static_cast<size_t>(bands);
-    irradiance.reserve(values);  // not an eighth more, as it may be
-    irradiance.resize_for_overwrite(values);
     radiosity.reserve(values + floats_beyond);
     radiosity.resize_for_overwrite(values + floats_beyond);
     for (size_t k = values; k < radiosity.size(); ++k) radiosity[k] = 0;

@@ -179,7 +179,8 @@ void reset_to_emission(State& state, ThreadTeam& team, const Exchange& exchange)
   state.resize_light_for_overwrite();
   for_each_piece(team, nodes.size(), [&](size_t, size_t begin, size_t end) {
     state.places.for_each_stretch(begin, end, [&](size_t node, size_t place, size_t count) {
-      std::fill_n(&state.irradiance[place * bands], count * bands, 0.0f);
+      if (place < state.places.end_of_own())
+        std::fill_n(&state.irradiance[place * bands], count * bands, 0.0f);
       for (float* to = &state.radiosity[place * bands]; count-- > 0; ++node, to += bands) {
         const int32_t surface = nodes[node].surface;
         if (surface < 0) {  // a cluster

@@ -80,15 +80,20 @@ void stretches_are_all_places_of_a_range() {
 void dropped_nodes_give_back_theirs() {
   LightPlaces places;
   places.keep_some(3);
+  CHECK_EQUAL(places.end_of_own(), size_t{3});
   places.resize(3 + 4 * 2);
-  places.add_family(3);
+  places.add_own_family(3);
   const size_t before = places.count();
+  CHECK_EQUAL(places.end_of_own(), before);
   places.resize(3 + 4 * 4);
   places.add_family(15);
-  places.add_family(11);
+  CHECK_EQUAL(places.end_of_own(), before);
+  places.add_own_family(11);
   CHECK_EQUAL(places.count(), before + 8);
+  CHECK_EQUAL(places.end_of_own(), before + 8);
   places.resize(3 + 4 * 2);
   CHECK_EQUAL(places.count(), before);
+  CHECK_EQUAL(places.end_of_own(), before);
   places.resize(3 + 4 * 4);
   CHECK(places.has(3) && !places.has(11) && !places.has(15));
   places.add_family(11);
