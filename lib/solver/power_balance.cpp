@@ -45,7 +45,7 @@ std::optional<PowerBalance> measure_balance(State& state, const LightOfAll& radi
       leaving[b] += exposed * radiosity[id][b];
     }
   }
-  irradiance.reset();
+  irradiance.reset();  // rays ask for radiosity alone
   std::vector<double> weights(leaves.size(), 0.0);
   for (size_t k = 0; k < leaves.size(); ++k) {
     const Node& node = forest.nodes[leaves[k]];

@@ -24,6 +24,17 @@ std::vector<int32_t> owners_of(const State& state) {
   return owners;
 }
 
+// What a rank has of a scene whose patches are divided so often.
+struct Part {
+  Part(const Scene& scene, Comm& comm, int level) : state(scene), exchange(comm, owners_of(state)) {
+    split_all(state.forest, level);
+    exchange.make_room_for_light(state);
+  }
+  State state;
+  ThreadTeam team{2};
+  Exchange exchange;
+};
+
 // The first root of each rank is linked to these.
 void link_to(State& state, int rank, const std::vector<NodeId>& sources) {
   std::vector<Link> links;
@@ -103,11 +114,10 @@ void what_needs_no_message_does_not_wait() {
   const Scene scene = builtin_scene("cornell");
   std::vector<uint8_t> right(ranks, 0);
   on_ranks(ranks, [&](Comm& comm) {
-    State state(scene);
-    ThreadTeam team(2);
-    split_all(state.forest, 1);
-    Exchange exchange(comm, owners_of(state));
-    exchange.make_room_for_light(state);
+    Part part(scene, comm, 1);
+    State& state = part.state;
+    ThreadTeam& team = part.team;
+    Exchange& exchange = part.exchange;
     const NodeId here = comm.rank(), waiting = here + ranks, next = (here + 1) % ranks;
     const Link own{state.forest.nodes[here].first_child, 0.5f};
     const Link of_next{state.forest.nodes[next].first_child, 0.25f};
@@ -187,11 +197,10 @@ void light_is_kept_by_owners() {
   const Scene scene = builtin_scene("cornell");
   std::vector<uint8_t> right(ranks, 0);
   on_ranks(ranks, [&](Comm& comm) {
-    State state(scene);
-    ThreadTeam team(2);
-    split_all(state.forest, 2);
-    Exchange exchange(comm, owners_of(state));
-    exchange.make_room_for_light(state);
+    Part part(scene, comm, 2);
+    State& state = part.state;
+    ThreadTeam& team = part.team;
+    Exchange& exchange = part.exchange;
     const size_t bands = static_cast<size_t>(state.bands);
     const NodeId roots = static_cast<NodeId>(state.forest.surface_count());
     const NodeId nodes = static_cast<NodeId>(state.forest.nodes.size());

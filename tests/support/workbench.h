@@ -104,7 +104,6 @@ struct Workbench {
   }
 
   hrad::LightOfAll radiosity_of_all() { return {state, &hrad::State::radiosity, exchange, team}; }
-  hrad::LightOfAll irradiance_of_all() { return {state, &hrad::State::irradiance, exchange, team}; }
   hrad::Brightness brightness() {
     return hrad::measure_brightness(state, radiosity_of_all(), team, exchange);
   }
