@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "solver/hash_of_own.h"
 #include "solver/solve_run.h"
 #include "stages/exposed_shares.h"
 #include "stages/gather.h"
@@ -33,16 +34,12 @@ constexpr uint64_t stage_of_linking = 0, stage_of_measuring = uint64_t{1} << 32;
 
 // Collective.
 uint64_t hash_of_light_on(const State& state, const Exchange& exchange) {
-  uint64_t sum = 0;  // of whole numbers, in any order
-  for (NodeId id = 0; id < static_cast<NodeId>(state.forest.nodes.size()); ++id) {
-    if (!exchange.mine(state.forest, id)) continue;
+  return hash_of_own(state, exchange, [&](NodeId id) {
     Hasher hash;
     for (const float* light : {state.radiosity_of(id), state.irradiance_of(id)})
       for (int b = 0; b < state.bands; ++b) hash.add(light[b]);
-    sum += mix(static_cast<uint64_t>(id), hash.value());
-  }
-  exchange.comm().add_up({&sum, 1});
-  return sum;
+    return hash.value();
+  });
 }
 
 bool measure_roots(State& state, const StageTools& tools) {

@@ -15,6 +15,7 @@
 #include "machine/topology.h"
 #include "partition/partition.h"
 #include "solver/export.h"
+#include "solver/hash_of_own.h"
 #include "solver/partition_plan.h"
 #include "solver/same_everywhere.h"
 #include "solver/solution.h"
@@ -260,14 +261,8 @@ uint64_t Solver::state_hash() const {
   }
   for (double value : scene_.emission) hash.add(value);
   for (double value : scene_.reflectance) hash.add(value);
-  // Every process adds up what it knows of its own elements: whole numbers, in any order.
-  uint64_t sum = 0;
-  for (size_t k = 0; k < state.forest.nodes.size(); ++k) {
-    const NodeId id = static_cast<NodeId>(k);
-    if (solution_->exchange->mine(state.forest, id)) sum += mix(k, hash_of_node(state, id));
-  }
-  comm_->add_up({&sum, 1});
-  hash.add(sum);
+  hash.add(
+      hash_of_own(state, *solution_->exchange, [&](NodeId id) { return hash_of_node(state, id); }));
   return hash.value();
 }
 
