@@ -38,9 +38,11 @@ class LightPlaces {
     return of_some_ ? at(first_.data(), shift_, id) : static_cast<size_t>(id);
   }
   bool has(NodeId id) const { return !of_some_ || first_[group(shift_, id)] != none; }
-  // body(node, place, count) for nodes begin .. end-1 that have places, stretch by stretch.
+  // body(node, place, count) for nodes begin .. end-1 that have places, stretch by stretch, of
+  // which none is empty.
   template <class Body>
   void for_each_stretch(size_t begin, size_t end, const Body& body) const {
+    if (begin == end) return;
     if (!of_some_) return body(begin, begin, end - begin);
     for (size_t id = begin, next; id < end; id = next) {
       const size_t number = group(shift_, static_cast<NodeId>(id));

@@ -19,6 +19,14 @@ void all_nodes_have_places_to_begin_with() {
     CHECK(places.has(k));
     CHECK_EQUAL(places[k], static_cast<size_t>(k));
   }
+  // Of no nodes there is none, and no light to point to.
+  size_t stretches = 0;
+  const auto count = [&](size_t, size_t, size_t) { ++stretches; };
+  places.for_each_stretch(3, 3, count);
+  LightPlaces().for_each_stretch(0, 0, count);
+  CHECK_EQUAL(stretches, size_t{0});
+  places.for_each_stretch(3, 4, count);
+  CHECK_EQUAL(stretches, size_t{1});
 }
 
 // However many roots and clusters there are before the first family.
@@ -66,6 +74,7 @@ void stretches_are_all_places_of_a_range() {
     for (size_t end = begin; end <= 26; ++end) {
       std::vector<size_t> found, wanted;
       places.for_each_stretch(begin, end, [&](size_t node, size_t place, size_t count) {
+        CHECK(count > 0);
         for (size_t k = 0; k < count; ++k) {
           found.push_back(node + k);
           CHECK_EQUAL(place + k, places[static_cast<NodeId>(node + k)]);
