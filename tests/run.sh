@@ -3,10 +3,11 @@
 # warnings as errors, runs the tests.
 #   bash tests/run.sh          every test, some minutes on two cores; with clang and its libFuzzer
 #                              also every fuzz target for half a minute
-#   bash tests/run.sh --full   before that the same tests under the address, undefined behaviour and
-#                              thread sanitizers, a build without options, every example from an installed
-#                              prefix (tests/consumers.sh), Debian packages (tests/packages.sh), the
-#                              linters (tests/lint.sh), and all benchmarks; two minutes of fuzzing each
+#   bash tests/run.sh --full   all of what that takes samples of; before it the same tests under the
+#                              address, undefined behaviour and thread sanitizers, a build without
+#                              options, every example from an installed prefix (tests/consumers.sh),
+#                              Debian packages (tests/packages.sh), the linters (tests/lint.sh), and
+#                              all benchmarks; two minutes of fuzzing each
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -41,31 +42,42 @@ test_without_options() {
     '^(api_solve|api_checkpoint|physics_furnaces|solver_ranks_few|cli_usage|cli_query|cli_json|consumers_.*|style_style)$'
 }
 
-# fuzz SECONDS: every fuzz target for so long, from the corpus in the tree; what it finds beside it
-# stays in build-fuzz. Nothing without clang and libFuzzer.
+# fuzz_one TARGET SECONDS: from the corpus in the tree; what it finds beside it stays in build-fuzz.
+fuzz_one() {
+  set -euo pipefail
+  local target=$1 dictionary=()
+  mkdir -p "build-fuzz/corpus/$target"
+  # Words of the formats; the C interface is called by numbers.
+  case $target in
+    fuzz_obj | fuzz_mtl) dictionary=(-dict=tests/fuzz/obj.dict) ;;
+    fuzz_hrad) dictionary=(-dict=tests/fuzz/hrad.dict) ;;
+  esac
+  build-fuzz/tests/"$target" -max_total_time="$2" -timeout=60 -rss_limit_mb=3000 \
+    "${dictionary[@]}" -artifact_prefix="build-fuzz/$target-" -print_final_stats=1 \
+    "build-fuzz/corpus/$target" "tests/fuzz/corpus/${target#fuzz_}"
+}
+export -f fuzz_one
+
+# fuzz SECONDS: every fuzz target for so long, as many at a time as there are cores. Nothing without
+# clang and libFuzzer.
 fuzz() {
   if ! echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, long) { return 0; }' |
     clang++ -x c++ -fsanitize=fuzzer - -o /dev/null 2>/dev/null; then
     echo "No clang with libFuzzer: the fuzz targets are left out, their corpus was replayed." >&2
     return
   fi
-  local source target dictionary
+  local targets
+  targets=$(cd tests/fuzz && printf '%s\n' fuzz_*.cpp | sed 's/\.cpp$//')
   bash tests/configure.sh fuzz build-fuzz -DHRAD_TESTS=ON
-  for source in tests/fuzz/fuzz_*.cpp; do
-    target=$(basename "$source" .cpp)
-    cmake --build build-fuzz --parallel "$(nproc)" --target "$target"
-    mkdir -p "build-fuzz/corpus/$target"
-    # Words of the formats; the C interface is called by numbers.
-    dictionary=()
-    case $target in
-      fuzz_obj | fuzz_mtl) dictionary=(-dict=tests/fuzz/obj.dict) ;;
-      fuzz_hrad) dictionary=(-dict=tests/fuzz/hrad.dict) ;;
-    esac
-    build-fuzz/tests/"$target" -max_total_time="$1" -timeout=60 -rss_limit_mb=3000 \
-      "${dictionary[@]}" -artifact_prefix="build-fuzz/$target-" -print_final_stats=1 \
-      "build-fuzz/corpus/$target" "tests/fuzz/corpus/${target#fuzz_}"
-  done
+  # shellcheck disable=SC2086
+  cmake --build build-fuzz --parallel "$(nproc)" --target $targets
+  echo "$targets" | xargs -P "$(nproc)" -I TARGET bash -c 'fuzz_one TARGET '"$1"
 }
+
+# Samples that a run which is waited for takes are all of it then.
+if $full; then
+  export HRAD_TEST_THOROUGH=1
+fi
 
 bash tests/setup.sh "$($full && echo full || echo tests)"
 
