@@ -2,8 +2,10 @@
 #include "stages/bright_spots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "base/exact_sum.h"
 #include "base/hash.h"
 #include "machine/pieces.h"
 #include "stages/element_rays.h"
@@ -27,55 +29,60 @@ BrightSpots::BrightSpots(const State& state, const StageTools& tools, const RowS
                          const Brightness& brightness, const Emitters& emitters)
     : state_(state), seed_(mix(settings.seed, 0x73706f74u)), settings_(settings) {
   const Forest& forest = state.forest;
-  const std::vector<NodeId> leaves =
-      gathered<NodeId>(tools.team, forest.nodes.size(), [&](size_t k, std::vector<NodeId>& some) {
-        const NodeId id = static_cast<NodeId>(k);
-        const Node& node = forest.nodes[k];
-        if (!Forest::is_cluster(node) && forest.is_leaf(id) && node.exposed > 0 &&
-            emitters.of_node(node.surface) < 0)
-          some.push_back(id);
-      });
-  std::vector<float> light(leaves.size());
-  for_each_thing(tools.team, light.size(), [&](size_t k) {
-    NodeId known = leaves[k];
-    while (static_cast<size_t>(known) >= brightness.of_node.size())
-      known = forest.nodes[known].parent;
-    // What chance kept from the few pilot rays of a cell the others on its surface have met.
-    light[k] =
-        std::max(brightness.of_node[known], brightness.of_node[forest.nodes[leaves[k]].surface]);
-  });
-  tools.exchange.share(
-      light, [&](size_t k) { return forest.nodes[leaves[k]].surface; }, tools.team);
-  struct Sums {
-    double rest = 0, area = 0;
+  struct Leaf {
+    NodeId id;
+    float light;
   };
-  std::vector<Sums> sums(pieces_of(leaves.size()));
-  for_each_piece(tools.team, leaves.size(), [&](size_t piece, size_t begin, size_t end) {
+  const std::vector<Leaf> own =
+      gathered<Leaf>(tools.team, forest.nodes.size(), [&](size_t k, std::vector<Leaf>& some) {
+        const Node& node = forest.nodes[k];
+        if (node.first_child >= 0 || Forest::is_cluster(node) || !(node.exposed > 0) ||
+            !tools.exchange.mine(node.surface) || emitters.of_node(node.surface) >= 0)
+          return;
+        NodeId known = static_cast<NodeId>(k);
+        while (static_cast<size_t>(known) >= brightness.of_node.size())
+          known = forest.nodes[known].parent;
+        // What chance kept from the few pilot rays of a cell the others on its surface have met.
+        some.push_back({static_cast<NodeId>(k),
+                        std::max(brightness.of_node[known], brightness.of_node[node.surface])});
+      });
+  // Light of all that isn't surely a spot, and area.
+  std::vector<std::array<ExactSum, 2>> of_pieces(pieces_of(own.size()));
+  for_each_piece(tools.team, own.size(), [&](size_t piece, size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
-      const double exposed = exposed_area(leaves[k]);
-      sums[piece].area += exposed;
-      if (light[k] <= bright_spot) sums[piece].rest += exposed * static_cast<double>(light[k]);
+      const double exposed = exposed_area(own[k].id), light = static_cast<double>(own[k].light);
+      if (light <= bright_spot) of_pieces[piece][0].add(exposed * light);
+      of_pieces[piece][1].add(exposed);
     }
   });
-  double rest = 0, area = 0;
-  for (const Sums& some : sums) {
-    rest += some.rest;
-    area += some.area;
-  }
+  std::vector<ExactSum> sums(2);
+  for (const auto& of_piece : of_pieces)
+    for (size_t k = 0; k < 2; ++k) sums[k].add(of_piece[k]);
+  tools.exchange.add_up(sums);
+  const double rest = sums[0].value(), area = sums[1].value();
   const double least =
       area > 0 ? std::min(bright_spot, std::max(least_bright_spot, times_the_rest * rest / area))
                : bright_spot;
   const double power =
       settings.power_of_spot_rays() * settings.cell_area * std::sqrt(least / bright_spot);
-  const std::vector<size_t> bright =
-      gathered<size_t>(tools.team, leaves.size(), [&](size_t k, std::vector<size_t>& some) {
-        if (static_cast<double>(light[k]) > least) some.push_back(k);
-      });
-  if (!bright.empty()) rays_.resize(forest.nodes.size(), 0);
-  for (size_t k : bright) {
-    rays_[leaves[k]] = static_cast<int32_t>(std::ceil(std::min(
-        most_rays_of_a_spot, static_cast<double>(light[k]) * exposed_area(leaves[k]) / power)));
-    spots_.push_back(leaves[k]);
+  struct Spot {
+    NodeId leaf;
+    int32_t rays;
+  };
+  std::vector<Spot> spots;
+  for (const Leaf& leaf : own) {
+    const double light = static_cast<double>(leaf.light);
+    if (light > least)
+      spots.push_back({leaf.id, static_cast<int32_t>(std::ceil(std::min(
+                                    most_rays_of_a_spot, light * exposed_area(leaf.id) / power)))});
+  }
+  tools.exchange.unite(spots);
+  std::sort(spots.begin(), spots.end(),
+            [](const Spot& a, const Spot& b) { return a.leaf < b.leaf; });
+  if (!spots.empty()) rays_.resize(forest.nodes.size(), 0);
+  for (const Spot& spot : spots) {
+    rays_[spot.leaf] = spot.rays;
+    spots_.push_back(spot.leaf);
   }
 }
 

@@ -2,7 +2,6 @@
 #include "stages/gather.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include "stages/sweep_kernels.h"
@@ -29,45 +28,27 @@ void gather_run(Span<const Link> links, const State& state, float* out) {
       links, state, [&](NodeId source) { return state.values_before(source); }, out);
 }
 
-// Adds what arrives over some runs of one block of receivers, those that wait or the others, whose
-// sources are places.
-void add_runs(State& state, const LinkTable::Block& block, NodeId first_receiver,
-              const OwnRuns::Runs* waits, bool wanted) {
-  uint32_t receivers[LinkTable::receivers_of_a_block];
-  size_t runs = 0;
-  block.has_links.for_each([&](size_t k) {
-    receivers[runs++] =
-        static_cast<uint32_t>(state.places[first_receiver + static_cast<NodeId>(k)]);
-  });
-  const bool by_kernel = state.bands >= 2 && state.bands <= most_lanes;
+// Adds what arrives over some runs of these links, whose sources are places.
+void add_runs(State& state, Span<const Link> links, Span<const GatherRun> runs) {
+  if (state.bands >= 2 && state.bands <= most_lanes) {
+    sweep_kernels()[0]->gather({links, runs}, state.radiosity.data(), state.bands,
+                               state.irradiance.data());
+    return;
+  }
   const size_t bands = static_cast<size_t>(state.bands);
-  for (size_t run = 0; run < runs;) {
-    const size_t begin = run;
-    const bool kind = waits && (*waits)[run];
-    while (run < runs && (!waits || (*waits)[run] == kind)) ++run;
-    if (kind != wanted) continue;
-    uint32_t first = begin > 0 ? block.ends[begin - 1] : 0;
-    if (by_kernel) {
-      sweep_kernels()[0]->gather({block.links.data(), block.ends.back(), first, &block.ends[begin],
-                                  receivers + begin, run - begin},
-                                 state.radiosity.data(), state.bands, state.irradiance.data());
-      continue;
-    }
-    for (size_t k = begin; k < run; first = block.ends[k++]) {
-      float light[most_bands];
-      gather_run(
-          {block.links.data() + first, block.ends[k] - first}, state,
-          [&](NodeId place) { return static_cast<size_t>(place) * bands; }, light);
-      float* const out = &state.irradiance[receivers[k] * bands];
-      for (size_t b = 0; b < bands; ++b) out[b] += light[b];
-    }
+  for (const GatherRun& run : runs) {
+    float light[most_bands];
+    gather_run(
+        links.subspan(run.first, run.end - run.first), state,
+        [&](NodeId place) { return static_cast<size_t>(place) * bands; }, light);
+    float* const out = &state.irradiance[run.receiver * bands];
+    for (size_t b = 0; b < bands; ++b) out[b] += light[b];
   }
 }
 
-size_t first_of_block(size_t number) { return number * LinkTable::receivers_of_a_block; }
-
 void set_to_nothing(State& state, size_t number) {
-  const size_t first = first_of_block(number), bands = static_cast<size_t>(state.bands);
+  const size_t first = number * LinkTable::receivers_of_a_block,
+               bands = static_cast<size_t>(state.bands);
   const auto set = [&](size_t, size_t place, size_t count) {
     if (place < state.places.end_of_own())
       std::fill_n(&state.irradiance[place * bands], count * bands, 0.0f);
@@ -75,14 +56,13 @@ void set_to_nothing(State& state, size_t number) {
   state.places.for_each_stretch(first, first + state.links.block(number).has_links.size(), set);
 }
 
-// waits: of both tables, nullptr: no run does.
-void add_block(State& state, size_t number, const std::array<OwnRuns::Runs, 2>* waits,
-               bool wanted) {
+// A block of own runs, those that wait for messages or the others.
+void add_own_runs(State& state, const OwnRuns::Block& block, bool waiting) {
   const LinkTable* const tables[] = {&state.links, &state.direct.mean};
-  for (size_t t = 0; t < 2; ++t)
-    if (number < tables[t]->block_count())
-      add_runs(state, tables[t]->block(number), static_cast<NodeId>(first_of_block(number)),
-               waits ? &(*waits)[t] : nullptr, wanted);
+  for (size_t t = 0; t < 2; ++t) {
+    const Span<const GatherRun> runs = block.of_table(t, waiting);
+    if (!runs.empty()) add_runs(state, tables[t]->block(block.number).links, runs);
+  }
 }
 
 }  // namespace
@@ -106,7 +86,12 @@ void gather(State& state, ThreadTeam& team) {
   team.for_each(static_cast<int64_t>(state.links.block_count()), [&](int64_t task, int) {
     const size_t number = static_cast<size_t>(task);
     set_to_nothing(state, number);
-    add_block(state, number, nullptr, false);
+    GatherRun runs[LinkTable::receivers_of_a_block];
+    for (const LinkTable* table : {&state.links, &state.direct.mean}) {
+      if (number >= table->block_count()) continue;
+      const LinkTable::Block& block = table->block(number);
+      add_runs(state, block.links, {runs, put_runs(state.places, block, number, runs)});
+    }
   });
 }
 
@@ -116,7 +101,7 @@ void gather_what_is_here(State& state, ThreadTeam& team, const OwnRuns& runs,
   const auto add = [&](int64_t task, int) {
     const OwnRuns::Block& block = runs.blocks()[static_cast<size_t>(task)];
     set_to_nothing(state, block.number);
-    add_block(state, block.number, &block.waits, false);
+    add_own_runs(state, block, false);
   };
   team.for_each(static_cast<int64_t>(runs.blocks().size()), add, [&](int64_t) {
     exchange.make_progress();
@@ -127,8 +112,7 @@ void gather_what_is_here(State& state, ThreadTeam& team, const OwnRuns& runs,
 // Each receiver has at most two runs, so that their order changes no bit.
 void gather_what_has_come(State& state, ThreadTeam& team, const OwnRuns& runs) {
   team.for_each(static_cast<int64_t>(runs.blocks().size()), [&](int64_t task, int) {
-    const OwnRuns::Block& block = runs.blocks()[static_cast<size_t>(task)];
-    if (block.any_waits()) add_block(state, block.number, &block.waits, true);
+    add_own_runs(state, runs.blocks()[static_cast<size_t>(task)], true);
   });
 }
 

@@ -18,16 +18,15 @@ inline void add_run(const Link* link, const Link* last, const float* sources, Fo
 
 template <int Bands>
 inline void gather_runs_of(const LinkRuns& runs, const float* sources, float* out) {
-  uint32_t first = runs.first;
-  for (size_t k = 0; k < runs.count; ++k) {
-    const uint32_t end = runs.ends[k];
+  const Link* const links = runs.links.data();
+  const size_t count = runs.links.size();
+  for (const GatherRun& run : runs.runs) {
     FourDoubles sum = {};
-    if (runs.all - end >= links_ahead)
-      add_run<Bands, true>(runs.links + first, runs.links + end, sources, sum);
+    if (count - run.end >= links_ahead)
+      add_run<Bands, true>(links + run.first, links + run.end, sources, sum);
     else
-      add_run<Bands, false>(runs.links + first, runs.links + end, sources, sum);
-    first = end;
-    float* const to = out + static_cast<size_t>(runs.receivers[k]) * Bands;
+      add_run<Bands, false>(links + run.first, links + run.end, sources, sum);
+    float* const to = out + static_cast<size_t>(run.receiver) * Bands;
     for (int b = 0; b < Bands; ++b) to[b] += static_cast<float>(sum[b]);
   }
 }

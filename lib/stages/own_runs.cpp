@@ -2,25 +2,34 @@
 #include "stages/own_runs.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "machine/pieces.h"
 
 namespace hrad {
 namespace {
 
-OwnRuns::Runs waiting(const LinkTable& table, size_t number, const Exchange& exchange) {
-  OwnRuns::Runs waits;
-  if (number >= table.block_count()) return waits;
-  const LinkTable::Block& block = table.block(number);
-  size_t first = 0;
-  for (size_t run = 0; run < block.ends.size(); first = block.ends[run++])
-    waits[run] =
-        std::any_of(block.links.data() + first, block.links.data() + block.ends[run],
-                    [&](const Link& link) { return exchange.comes_by_message(link.source); });
-  return waits;
+std::array<LinkTable*, 2> tables_of(State& state) { return {&state.links, &state.direct.mean}; }
+
+size_t runs_in(const LinkTable& table, size_t number) {
+  return number < table.block_count() ? table.block(number).ends.size() : 0;
 }
 
 }  // namespace
+
+size_t put_runs(const LightPlaces& places, const LinkTable::Block& block, size_t number,
+                GatherRun* runs) {
+  const NodeId first = static_cast<NodeId>(number * LinkTable::receivers_of_a_block);
+  size_t count = 0;
+  block.has_links.for_each([&](size_t k) {
+    const uint32_t before = count > 0 ? block.ends[count - 1] : 0;
+    runs[count] = {before, block.ends[count],
+                   static_cast<uint32_t>(places[first + static_cast<NodeId>(k)])};
+    ++count;
+  });
+  return count;
+}
 
 OwnRuns::OwnRuns(State& state, const Exchange& exchange, ThreadTeam& team) {
   if (exchange.alone()) return;
@@ -44,31 +53,58 @@ OwnRuns::OwnRuns(State& state, const Exchange& exchange, ThreadTeam& team) {
       blocks_.emplace_back();
       blocks_.back().number = static_cast<uint32_t>(block);
     }
-  team.for_each(static_cast<int64_t>(blocks_.size()), [&](int64_t k, int) {
-    Block& block = blocks_[static_cast<size_t>(k)];
-    block.waits = {waiting(state.links, block.number, exchange),
-                   waiting(state.direct.mean, block.number, exchange)};
-  });
   node_at_.resize(state.places.count());
   state.places.for_each_stretch(0, state.places.nodes(),
                                 [&](size_t node, size_t place, size_t count) {
                                   for (; count-- > 0; ++node)
                                     node_at_[place++] = static_cast<NodeId>(node);
                                 });
-  rename_sources([&](NodeId source) { return static_cast<NodeId>(state.places[source]); });
+  team.for_each(static_cast<int64_t>(blocks_.size()), [&](int64_t k, int) {
+    Block& block = blocks_[static_cast<size_t>(k)];
+    block.runs.resize(runs_in(state.links, block.number) +
+                      runs_in(state.direct.mean, block.number));
+  });
+  // Nothing fails from here on: either all sources are places, or none is.
+  team.for_each(static_cast<int64_t>(blocks_.size()), [&](int64_t k, int) {
+    Block& block = blocks_[static_cast<size_t>(k)];
+    size_t kind = 0;
+    for (LinkTable* table : tables_of(state)) {
+      GatherRun* const runs = block.runs.data() + block.first[kind];
+      const size_t count = runs_in(*table, block.number);
+      size_t here = 0;
+      if (count > 0) put_runs(state.places, table->block(block.number), block.number, runs);
+      for (size_t k = 0; k < count; ++k) {
+        bool waits = false;
+        for (uint32_t at = runs[k].first; at < runs[k].end; ++at) {
+          NodeId& source = table->links_of_block(block.number)[at].source;
+          waits = waits || exchange.comes_by_message(source);
+          source = static_cast<NodeId>(state.places[source]);
+        }
+        if (!waits) std::swap(runs[here++], runs[k]);
+      }
+      block.first[kind + 1] = block.first[kind] + static_cast<uint32_t>(here);
+      block.first[kind + 2] = block.first[kind] + static_cast<uint32_t>(count);
+      kind += 2;
+    }
+  });
 }
 
 OwnRuns::~OwnRuns() {
-  if (!all_) rename_sources([&](NodeId place) { return node_at_[static_cast<size_t>(place)]; });
+  if (all_) return;
+  team_->for_each(static_cast<int64_t>(blocks_.size()), [&](int64_t k, int) {
+    const size_t number = blocks_[static_cast<size_t>(k)].number;
+    for (LinkTable* table : tables_of(*state_)) {
+      if (number >= table->block_count()) continue;
+      for (Link& link : table->links_of_block(number))
+        link.source = node_at_[static_cast<size_t>(link.source)];
+    }
+  });
 }
 
-template <class NumberOf>
-void OwnRuns::rename_sources(const NumberOf& number_of) {
-  for (LinkTable* table : {&state_->links, &state_->direct.mean})
-    team_->for_each(static_cast<int64_t>(table->block_count()), [&](int64_t block, int) {
-      for (Link& link : table->links_of_block(static_cast<size_t>(block)))
-        link.source = number_of(link.source);
-    });
+int64_t OwnRuns::bytes() const {
+  int64_t bytes = bytes_in(blocks_) + bytes_in(node_at_);
+  for (const Block& block : blocks_) bytes += bytes_in(block.runs);
+  return bytes;
 }
 
 }  // namespace hrad

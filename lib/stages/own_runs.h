@@ -4,27 +4,36 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <vector>
 
 #include "stages/exchange.h"
 #include "stages/state.h"
+#include "stages/sweep_kernels.h"
 
 namespace hrad {
+
+// The runs of a block of a table, that number: returns how many. runs: room for all receivers of
+// a block.
+size_t put_runs(const LightPlaces& places, const LinkTable::Block& block, size_t number,
+                GatherRun* runs);
 
 // While it lives the sources of own links are not ids but places of their light, so that sweeps
 // need not look these up: nobody else may look at links then.
 class OwnRuns {
  public:
-  // A bit for each run of a block, in order.
-  using Runs = std::bitset<LinkTable::receivers_of_a_block>;
   // One of LinkTable in which some receivers are clusters or this process's own.
   struct Block {
     uint32_t number = 0;
-    std::array<Runs, 2> waits;  // of State::links, and of direct light
+    // Of State::links and then of direct light, first those that don't wait: each of these four
+    // kinds from where the one before ends.
+    std::vector<GatherRun> runs;
+    std::array<uint32_t, 5> first = {};
 
-    bool any_waits() const { return waits[0].any() || waits[1].any(); }
+    Span<const GatherRun> of_table(size_t table, bool waiting) const {
+      const size_t kind = 2 * table + (waiting ? 1 : 0);
+      return {runs.data() + first[kind], first[kind + 1] - first[kind]};
+    }
   };
 
   // All of them, and none that waits: of a process that is alone.
@@ -37,12 +46,9 @@ class OwnRuns {
 
   bool all() const { return all_; }
   const std::vector<Block>& blocks() const { return blocks_; }
-  int64_t bytes() const { return bytes_in(blocks_) + bytes_in(node_at_); }
+  int64_t bytes() const;
 
  private:
-  template <class NumberOf>
-  void rename_sources(const NumberOf& number_of);
-
   bool all_ = true;
   std::vector<Block> blocks_;
   State* state_ = nullptr;

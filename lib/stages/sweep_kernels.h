@@ -15,14 +15,14 @@ namespace hrad {
 // The values of a node are taken so many at a time.
 constexpr int most_lanes = 4;
 
-// Of `all` links, whose sources are places of light, some runs. The first run begins at link
-// `first`, run k ends at ends[k], where the next one begins, and arrives at place receivers[k].
+// Links `first` up to `end` of some, which arrive at a place of light.
+struct GatherRun {
+  uint32_t first, end, receiver;
+};
+// Of so many links, whose sources are places of light, too, some runs.
 struct LinkRuns {
-  const Link* links;
-  uint32_t all, first;
-  const uint32_t* ends;
-  const uint32_t* receivers;
-  size_t count;
+  Span<const Link> links;
+  Span<const GatherRun> runs;
 };
 // For two to four bands. sources: bands values per place, and most_lanes more that don't count.
 // Adds to the bands values of each receiver in `out` a sum in double precision, in the order of the

@@ -130,7 +130,8 @@ void what_needs_no_message_does_not_wait() {
     std::fill(state.irradiance.begin(), state.irradiance.end(), 7.0f);
     exchange.start_update(state, team);
     gather_what_is_here(state, team, runs, exchange);
-    bool all = !runs.all() && runs.blocks().size() == 1 && runs.blocks()[0].any_waits() &&
+    bool all = !runs.all() && runs.blocks().size() == 1 &&
+               runs.blocks()[0].of_table(0, true).size() == 1 &&
                irradiance(here) == 0.5f * static_cast<float>(here + 1) && irradiance(waiting) == 0;
     exchange.finish_update(state, team);
     exchange.finish_update(state, team);  // there is none any more

@@ -198,15 +198,14 @@ void gathering_is_the_product_of_links_and_radiosity() {
 void kernels_agree_to_the_bit() {
   constexpr size_t nodes = 500, receivers = 200;
   std::vector<Link> links;
-  std::vector<uint32_t> ends;
-  std::vector<uint32_t> with_links;
+  std::vector<GatherRun> runs;
   for (uint64_t k = 0; k < receivers; ++k) {
     if (k % 5 == 0) continue;
+    const uint32_t first = static_cast<uint32_t>(links.size());
     for (uint64_t m = 0; m < 1 + mix(k, 1) % 70; ++m)
       links.push_back({static_cast<NodeId>(mix(k, m, 2) % nodes),
                        static_cast<float>(unit_interval(mix(k, m, 3)))});
-    ends.push_back(static_cast<uint32_t>(links.size()));
-    with_links.push_back(static_cast<uint32_t>(k));
+    runs.push_back({first, static_cast<uint32_t>(links.size()), static_cast<uint32_t>(k)});
   }
   links.back() = {nodes - 1, 0.5f};
   for (int bands = 2; bands <= most_lanes; ++bands) {
@@ -214,14 +213,12 @@ void kernels_agree_to_the_bit() {
     for (uint64_t k = 0; k < nodes * bands; ++k)
       sources.push_back(static_cast<float>(unit_interval(mix(k, 4))));
     sources.resize(sources.size() + most_lanes);
-    const LinkRuns runs = {links.data(), ends.back(),       0,
-                           ends.data(),  with_links.data(), ends.size()};
-    sweep_kernels_sse2.gather(runs, sources.data(), bands, narrow.data());
+    sweep_kernels_sse2.gather({links, runs}, sources.data(), bands, narrow.data());
     for (size_t k = 0; k < receivers; ++k)
       for (int b = 0; b < bands; ++b) CHECK((narrow[k * bands + b] > 1) == (k % 5 != 0));
     for (const SweepKernels* kernels : sweep_kernels()) {
       std::vector<float> other(narrow.size(), 1.0f);
-      kernels->gather(runs, sources.data(), bands, other.data());
+      kernels->gather({links, runs}, sources.data(), bands, other.data());
       CHECK(other == narrow);
     }
   }
