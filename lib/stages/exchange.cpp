@@ -73,13 +73,13 @@ void Exchange::keep_own_light(State& state, const float* radiosity, const float*
 
 namespace {
 
-// body(rank, k) for each element of each rank's list.
+using PlaceList = std::vector<uint32_t>;
+
+// body(rank, k) for each of each rank's places.
 template <class Body>
-void for_each_asked(ThreadTeam& team, const std::vector<std::vector<NodeId>>& of_ranks,
-                    const Body& body) {
+void for_each_place(ThreadTeam& team, const std::vector<PlaceList>& of_ranks, const Body& body) {
   std::vector<size_t> first(1, 0);  // of each rank, one after the other
-  for (const std::vector<NodeId>& elements : of_ranks)
-    first.push_back(first.back() + elements.size());
+  for (const PlaceList& places : of_ranks) first.push_back(first.back() + places.size());
   for_each_piece(team, first.back(), [&](size_t, size_t begin, size_t end) {
     size_t rank = 0;
     for (size_t k = begin; k < end; ++k) {
@@ -89,23 +89,28 @@ void for_each_asked(ThreadTeam& team, const std::vector<std::vector<NodeId>>& of
   });
 }
 
-std::vector<Bytes> radiosity_of(const State& state, ThreadTeam& team,
-                                const std::vector<std::vector<NodeId>>& elements) {
-  const size_t bytes = static_cast<size_t>(state.bands) * sizeof(float);
-  std::vector<Bytes> to(elements.size());
-  for (size_t rank = 0; rank < to.size(); ++rank) to[rank].resize(elements[rank].size() * bytes);
-  for_each_asked(team, elements, [&](size_t rank, size_t k) {
-    std::memcpy(&to[rank][k * bytes], state.radiosity_of(elements[rank][k]), bytes);
+// One by one: they are few, and their number is not known to the compiler.
+void copy_values(const void* from, size_t count, void* to) {
+  for (size_t at = 0; at < count * sizeof(float); at += sizeof(float))
+    std::memcpy(static_cast<char*>(to) + at, static_cast<const char*>(from) + at, sizeof(float));
+}
+
+std::vector<Bytes> radiosity_at(const State& state, ThreadTeam& team,
+                                const std::vector<PlaceList>& places) {
+  const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
+  std::vector<Bytes> to(places.size());
+  for (size_t rank = 0; rank < to.size(); ++rank) to[rank].resize(places[rank].size() * bytes);
+  for_each_place(team, places, [&](size_t rank, size_t k) {
+    copy_values(&state.radiosity[places[rank][k] * bands], bands, &to[rank][k * bytes]);
   });
   return to;
 }
 
-void take_radiosity(State& state, ThreadTeam& team,
-                    const std::vector<std::vector<NodeId>>& elements,
+void take_radiosity(State& state, ThreadTeam& team, const std::vector<PlaceList>& places,
                     const std::vector<Bytes>& from) {
-  const size_t bytes = static_cast<size_t>(state.bands) * sizeof(float);
-  for_each_asked(team, elements, [&](size_t rank, size_t k) {
-    std::memcpy(state.radiosity_of(elements[rank][k]), &from[rank][k * bytes], bytes);
+  const size_t bands = static_cast<size_t>(state.bands), bytes = bands * sizeof(float);
+  for_each_place(team, places, [&](size_t rank, size_t k) {
+    copy_values(&from[rank][k * bytes], bands, &state.radiosity[places[rank][k] * bands]);
   });
 }
 
@@ -145,23 +150,30 @@ void Exchange::ask_for_sources(State& state, ThreadTeam& team) {
     put(to[rank], wanted[rank].data(), wanted[rank].size());
   count(requests, to);
   const std::vector<Bytes> from = comm_.exchange(std::move(to));
-  std::vector<std::vector<NodeId>> wanted_by(from.size());
+  const auto places_of = [&](const std::vector<NodeId>& elements) {
+    PlaceList places;
+    for (NodeId id : elements) places.push_back(static_cast<uint32_t>(state.places[id]));
+    return places;
+  };
+  std::vector<PlaceList> of(wanted.size()), by(from.size());
   for (size_t rank = 0; rank < from.size(); ++rank) {
-    wanted_by[rank].resize(from[rank].size() / sizeof(NodeId));
-    Taker(from[rank]).take(wanted_by[rank].data(), wanted_by[rank].size());
+    std::vector<NodeId> wanted_by(from[rank].size() / sizeof(NodeId));
+    Taker(from[rank]).take(wanted_by.data(), wanted_by.size());
+    of[rank] = places_of(wanted[rank]);
+    by[rank] = places_of(wanted_by);
   }
-  std::vector<Bytes> told = radiosity_of(state, team, wanted_by);
+  std::vector<Bytes> told = radiosity_at(state, team, by);
   count(updates, told);
-  take_radiosity(state, team, wanted, comm_.exchange(std::move(told)));
+  take_radiosity(state, team, of, comm_.exchange(std::move(told)));
   for (size_t rank = 0; rank < from.size(); ++rank) {
-    asked_of_[rank].insert(asked_of_[rank].end(), wanted[rank].begin(), wanted[rank].end());
-    asked_by_[rank].insert(asked_by_[rank].end(), wanted_by[rank].begin(), wanted_by[rank].end());
+    asked_of_[rank].insert(asked_of_[rank].end(), of[rank].begin(), of[rank].end());
+    asked_by_[rank].insert(asked_by_[rank].end(), by[rank].begin(), by[rank].end());
   }
 }
 
 void Exchange::start_update(const State& state, ThreadTeam& team) {
   if (alone()) return;
-  std::vector<Bytes> to = radiosity_of(state, team, asked_by_);
+  std::vector<Bytes> to = radiosity_at(state, team, asked_by_);
   count(updates, to);
   comm_.start_exchange(std::move(to));
 }

@@ -134,9 +134,9 @@ class Exchange {
 
   Comm& comm_;
   std::vector<int32_t> owner_, own_;
-  std::vector<bool> asked_;                    // per node
-  std::vector<std::vector<NodeId>> asked_of_;  // per rank, ascending at each time of asking
-  std::vector<std::vector<NodeId>> asked_by_;  // likewise
+  std::vector<bool> asked_;  // per node
+  // Of what is asked for, places of light, per rank; they stay as long as it is.
+  std::vector<std::vector<uint32_t>> asked_of_, asked_by_;
   MessageCounts counts_;
 };
 

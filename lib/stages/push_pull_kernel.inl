@@ -21,54 +21,56 @@ class TreeSweep {
     take_some<Lanes>(reflectance_of_patch_ + of_patch, reflectance_);
     const NodeId cluster = nodes_[root].parent;
     FourDoubles from_above = {};
-    if (cluster >= 0) widen_some<Lanes>(irradiance_ + at(cluster), from_above);
+    if (cluster >= 0) widen_some<Lanes>(irradiance_ + places_[cluster] * bands_, from_above);
     double weight = 0;
-    go(root, from_above, sum, weight);
+    go(root, places_[root] * bands_, from_above, sum, weight);
   }
 
  private:
-  // Adds irradiance times exposed share, and that share, as means over the node's area, to `sum`
-  // and `weight`.
-  void go(NodeId id, const FourDoubles& from_above, FourDoubles& sum, double& weight) {
+  // at: of its values. Adds irradiance times exposed share, and that share, as means over the
+  // node's area, to `sum` and `weight`.
+  void go(NodeId id, size_t at, const FourDoubles& from_above, FourDoubles& sum, double& weight) {
     const NodeId first = nodes_.first_child(id);
     if (first < 0)
-      at_leaf(id, from_above, sum, weight);
+      at_leaf(id, at, from_above, sum, weight);
     else
-      below(id, first, from_above, sum, weight);
+      below(at, first, from_above, sum, weight);
   }
-  void at_leaf(NodeId id, const FourDoubles& from_above, FourDoubles& sum, double& weight) {
+  void at_leaf(NodeId id, size_t at, const FourDoubles& from_above, FourDoubles& sum,
+               double& weight) {
     FourDoubles down;
-    widen_some<Lanes>(irradiance_ + at(id), down);
+    widen_some<Lanes>(irradiance_ + at, down);
     down += from_above;
     const double exposed = nodes_.exposed(id);
     const FourDoubles nothing = {};
-    write(id, exposed > 0 ? down : nothing, down);
+    write(at, exposed > 0 ? down : nothing, down);
     sum += exposed * down;
     weight += exposed;
   }
-  void below(NodeId id, NodeId first, const FourDoubles& from_above, FourDoubles& sum,
+  void below(size_t at, NodeId first, const FourDoubles& from_above, FourDoubles& sum,
              double& weight) {
     FourDoubles down;
-    widen_some<Lanes>(irradiance_ + at(id), down);
+    widen_some<Lanes>(irradiance_ + at, down);
     down += from_above;
     FourDoubles pulled = {};
     double exposed = 0;
-    for (NodeId child = first; child < first + 4; ++child) go(child, down, pulled, exposed);
+    size_t at_child = places_[first] * bands_;  // brothers' stand side by side
+    for (NodeId child = first; child < first + 4; ++child, at_child += bands_)
+      go(child, at_child, down, pulled, exposed);
     sum += pulled / 4.0;
     const FourDoubles nothing = {};
-    write(id, exposed > 0 ? pulled / exposed : nothing, pulled);
+    write(at, exposed > 0 ? pulled / exposed : nothing, pulled);
     weight += exposed / 4;
   }
 
-  size_t at(NodeId id) const { return places_[id] * bands_; }
   // kept: in single precision, of which parents have the means.
-  void write(NodeId id, FourDoubles irradiance, FourDoubles& kept) {
+  void write(size_t at, FourDoubles irradiance, FourDoubles& kept) {
     FourFloats single;
     narrow(irradiance, single);
-    std::memcpy(irradiance_ + at(id), &single, Lanes * sizeof(float));
+    std::memcpy(irradiance_ + at, &single, Lanes * sizeof(float));
     widen(single, kept);
     narrow(emission_ + reflectance_ * irradiance, single);
-    std::memcpy(radiosity_ + at(id), &single, Lanes * sizeof(float));
+    std::memcpy(radiosity_ + at, &single, Lanes * sizeof(float));
   }
 
   const NodeArray& nodes_;
