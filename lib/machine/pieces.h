@@ -60,11 +60,15 @@ std::vector<T> joined(ThreadTeam& team, std::vector<std::vector<T>>& lists) {
 
 // What body(k, list) appends to the list, for each thing in turn.
 template <class T, class Body>
-std::vector<T> gathered(ThreadTeam& team, size_t count, const Body& body) {
-  std::vector<std::vector<T>> lists(pieces_of(count));
-  for_each_piece(team, count, [&](size_t piece, size_t begin, size_t end) {
-    for (size_t k = begin; k < end; ++k) body(k, lists[piece]);
-  });
+std::vector<T> gathered(ThreadTeam& team, size_t count, const Body& body,
+                        size_t of_a_piece = things_of_a_piece) {
+  std::vector<std::vector<T>> lists(pieces_of(count, of_a_piece));
+  for_each_piece(
+      team, count,
+      [&](size_t piece, size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k) body(k, lists[piece]);
+      },
+      of_a_piece);
   return joined(team, lists);
 }
 

@@ -23,29 +23,43 @@ constexpr double most_rays_of_a_spot = 1 << 20;
 // Between middles, in their radii: what is nearer fills so much of the view that rows find it.
 constexpr double far_apart = 2;
 
+// Trees of surfaces are looked at in about so many pieces.
+constexpr size_t pieces_of_surfaces = 512;
+
+struct Leaf {
+  NodeId id;
+  float light;
+};
+
+// The exposed leaves below a node. light: that of the lowest one above it of which it is known, or
+// of the surface if that is more: what chance kept from the few pilot rays of a cell the others on
+// its surface have met.
+void put_leaves(const Forest& forest, NodeId id, float light, const std::vector<float>& known,
+                std::vector<Leaf>& leaves) {
+  const NodeId first = forest.nodes.first_child(id);
+  const size_t k = static_cast<size_t>(id);
+  if (k < known.size() && (first < 0 || static_cast<size_t>(first) >= known.size()))
+    light = std::max(light, known[k]);
+  if (first < 0 && forest.nodes.exposed(k) > 0) leaves.push_back({id, light});
+  for (NodeId child = first; first >= 0 && child < first + 4; ++child)
+    put_leaves(forest, child, light, known, leaves);
+}
+
 }  // namespace
 
 BrightSpots::BrightSpots(const State& state, const StageTools& tools, const RowSettings& settings,
                          const Brightness& brightness, const Emitters& emitters)
     : state_(state), seed_(mix(settings.seed, 0x73706f74u)), settings_(settings) {
   const Forest& forest = state.forest;
-  struct Leaf {
-    NodeId id;
-    float light;
-  };
-  const std::vector<Leaf> own =
-      gathered<Leaf>(tools.team, forest.nodes.size(), [&](size_t k, std::vector<Leaf>& some) {
-        const Node& node = forest.nodes[k];
-        if (node.first_child >= 0 || Forest::is_cluster(node) || !(node.exposed > 0) ||
-            !tools.exchange.mine(node.surface) || emitters.of_node(node.surface) >= 0)
-          return;
-        NodeId known = static_cast<NodeId>(k);
-        while (static_cast<size_t>(known) >= brightness.of_node.size())
-          known = forest.nodes[known].parent;
-        // What chance kept from the few pilot rays of a cell the others on its surface have met.
-        some.push_back({static_cast<NodeId>(k),
-                        std::max(brightness.of_node[known], brightness.of_node[node.surface])});
-      });
+  const std::vector<NodeId>& own_roots = tools.exchange.own_surfaces();
+  const std::vector<Leaf> own = gathered<Leaf>(
+      tools.team, own_roots.size(),
+      [&](size_t k, std::vector<Leaf>& some) {
+        if (emitters.of_node(own_roots[k]) < 0)
+          put_leaves(forest, own_roots[k], brightness.of_node[own_roots[k]], brightness.of_node,
+                     some);
+      },
+      own_roots.size() / pieces_of_surfaces + 1);
   // Light of all that isn't surely a spot, and area.
   std::vector<std::array<ExactSum, 2>> of_pieces(pieces_of(own.size()));
   for_each_piece(tools.team, own.size(), [&](size_t piece, size_t begin, size_t end) {
