@@ -68,39 +68,13 @@ uint64_t LightGrid::key_of(const Grid& grid, const OrientedPoint& p) const {
   return key;
 }
 
-// Gives the points to the cubes that are new; returns the number of the first of those.
-size_t LightGrid::add_cubes(Grid& grid, const std::vector<OrientedPoint>& points,
-                            ThreadTeam& team) const {
-  const size_t before = grid.cubes.size();
-  std::vector<uint64_t> key(points.size());
-  for_each_thing(team, key.size(), [&](size_t k) { key[k] = key_of(grid, points[k]); });
-  // Neighbours mostly lie in the same cube: runs of them, by their first ones.
-  const std::vector<size_t> first =
-      gathered<size_t>(team, key.size(), [&](size_t k, std::vector<size_t>& some) {
-        if (k == 0 || key[k] != key[k - 1]) some.push_back(k);
-      });
-  const auto end_of = [&](size_t run) {
-    return run + 1 < first.size() ? first[run + 1] : key.size();
-  };
-  std::vector<size_t> count;  // of the points of each new cube
-  std::vector<size_t> cube(first.size());
-  for (size_t run = 0; run < first.size(); ++run) {
-    int32_t& number = grid.number.at(key[first[run]]);
-    if (number == NumberTable::none) {
-      number = static_cast<int32_t>(before + count.size());
-      count.push_back(0);
-    }
-    cube[run] = static_cast<size_t>(number);
-    if (cube[run] >= before) count[cube[run] - before] += end_of(run) - first[run];
-  }
-  grid.cubes.resize(before + count.size());
-  for (size_t c = 0; c < count.size(); ++c) grid.cubes[before + c].points.reserve(count[c]);
-  for (size_t run = 0; run < first.size(); ++run) {
-    if (cube[run] < before) continue;
-    std::vector<int32_t>& inside = grid.cubes[cube[run]].points;
-    for (size_t k = first[run]; k < end_of(run); ++k) inside.push_back(static_cast<int32_t>(k));
-  }
-  return before;
+GrowingArray<uint64_t> LightGrid::keys_of(const Grid& grid,
+                                          const std::vector<OrientedPoint>& points,
+                                          ThreadTeam& team) const {
+  GrowingArray<uint64_t> keys;
+  keys.resize_for_overwrite(points.size());
+  for_each_thing(team, keys.size(), [&](size_t k) { keys[k] = key_of(grid, points[k]); });
+  return keys;
 }
 
 // Points for the pilot rays of a coarse cube, as many from each of its fine ones, so that none is
@@ -118,17 +92,44 @@ std::vector<int32_t> LightGrid::spread_over(const std::vector<int32_t>& fine) co
 
 bool LightGrid::open(const std::vector<OrientedPoint>& points, ThreadTeam& team, Comm& comm,
                      const Opener& opener, int64_t& rays) {
-  const size_t first_coarse = add_cubes(coarse_, points, team);
-  const size_t first_fine = add_cubes(fine_, points, team);
+  const size_t first_coarse = coarse_.cubes.size(), first_fine = fine_.cubes.size();
+  // Each new cube's first point.
+  const auto add_cubes = [&](Grid& grid, const GrowingArray<uint64_t>& keys) {
+    const std::vector<uint32_t> first =
+        grid.number.add({keys.data(), keys.size()}, static_cast<int32_t>(grid.cubes.size()), team);
+    grid.cubes.resize(grid.cubes.size() + first.size());
+    return first;
+  };
+  add_cubes(coarse_, keys_of(coarse_, points, team));
+  const GrowingArray<uint64_t> keys = keys_of(fine_, points, team);
+  const std::vector<uint32_t> first_point = add_cubes(fine_, keys);
+  for_each_thing(team, first_point.size(), [&](size_t k) {
+    fine_.cubes[first_fine + k].around =
+        coarse_.number.find(key_of(coarse_, points[first_point[k]]));
+  });
+  // Their points matter where rays leave from them: from the cube itself or from that around it.
+  const auto own_around = [&](size_t fine) {
+    const size_t coarse = static_cast<size_t>(fine_.cubes[fine].around);
+    return coarse >= first_coarse && is_my_turn(comm, coarse - first_coarse);
+  };
+  struct Inside {
+    int32_t cube, point;
+  };
+  const std::vector<Inside> inside =
+      gathered<Inside>(team, points.size(), [&](size_t k, std::vector<Inside>& some) {
+        const size_t cube = static_cast<size_t>(fine_.number.find(keys[k]));
+        if (cube >= first_fine && (is_my_turn(comm, cube - first_fine) || own_around(cube)))
+          some.push_back({static_cast<int32_t>(cube), static_cast<int32_t>(k)});
+      });
+  for (const Inside& its : inside) fine_.cubes[its.cube].points.push_back(its.point);
   std::vector<std::vector<int32_t>> within(coarse_.cubes.size() - first_coarse);
-  for (size_t k = first_fine; k < fine_.cubes.size(); ++k) {
-    Cube& cube = fine_.cubes[k];
-    cube.around = coarse_.number.find(key_of(coarse_, points[cube.points.front()]));
-    const size_t coarse = static_cast<size_t>(cube.around);
-    if (coarse >= first_coarse) within[coarse - first_coarse].push_back(static_cast<int32_t>(k));
-  }
-  for (size_t k = 0; k < within.size(); ++k)
+  for (size_t k = first_fine; k < fine_.cubes.size(); ++k)
+    if (own_around(k))
+      within[static_cast<size_t>(fine_.cubes[k].around) - first_coarse].push_back(
+          static_cast<int32_t>(k));
+  for_each_thing(team, within.size(), [&](size_t k) {
     coarse_.cubes[first_coarse + k].points = spread_over(within[k]);
+  });
   return open_from(coarse_, first_coarse, points, comm, opener, rays) &&
          open_from(fine_, first_fine, points, comm, opener, rays);
 }

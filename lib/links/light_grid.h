@@ -8,9 +8,10 @@
 #include <functional>
 #include <vector>
 
-#include "base/number_table.h"
+#include "base/growing_array.h"
 #include "links/emitters.h"
 #include "machine/comm.h"
+#include "machine/key_numbers.h"
 #include "machine/thread_team.h"
 #include "visibility/visibility.h"
 
@@ -71,13 +72,14 @@ class LightGrid {
   struct Grid {
     double size;
     int pilot_packets;
-    NumberTable number;
+    KeyNumbers number;
     std::vector<Cube> cubes;
   };
   enum class Seen { none, hidden, some };
   Vec3 corner_of(const Grid& grid, Vec3 place) const;  // in whole cubes from the scene's middle
   uint64_t key_of(const Grid& grid, const OrientedPoint& point) const;
-  size_t add_cubes(Grid& grid, const std::vector<OrientedPoint>& points, ThreadTeam& team) const;
+  GrowingArray<uint64_t> keys_of(const Grid& grid, const std::vector<OrientedPoint>& points,
+                                 ThreadTeam& team) const;
   std::vector<int32_t> spread_over(const std::vector<int32_t>& fine) const;
   Seen seen_from(const Cube& cube, int32_t emitter) const;
   bool open_from(Grid& grid, size_t first, const std::vector<OrientedPoint>& points, Comm& comm,

@@ -43,7 +43,7 @@ std::vector<T> joined(ThreadTeam& team, std::vector<std::vector<T>>& lists) {
   std::vector<size_t> first(lists.size() + 1, 0);
   for (size_t k = 0; k < lists.size(); ++k) first[k + 1] = first[k] + lists[k].size();
   std::vector<T> all;
-  if (team.size() == 1 || first.back() < 64 * things_of_a_piece) {
+  if (team.alone() || first.back() < 64 * things_of_a_piece) {
     all.reserve(first.back());
     for (const std::vector<T>& list : lists) all.insert(all.end(), list.begin(), list.end());
     return all;

@@ -19,6 +19,9 @@ class ThreadTeam {
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
   int size() const;
+  // Whether one thread does it all, and no observer wants to know how several would share it: what
+  // is quicker then, and gives the same, may be done instead.
+  bool alone() const { return size() == 1 && !observer_; }
   // Tells an observer, which must outlive this, of every loop from now on; nullptr: nobody.
   void set_observer(class WorkObserver* observer) { observer_ = observer; }
 

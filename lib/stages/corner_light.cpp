@@ -49,16 +49,18 @@ CornerSampler::CornerSampler(State& state, const StageTools& tools, const Direct
 }
 
 void CornerSampler::want(const std::vector<ElementPoints>& all) {
-  std::vector<uint64_t> keys(3 * all.size());
+  GrowingArray<uint64_t> keys;  // as all that is large here, first written to by the team
+  keys.resize_for_overwrite(3 * all.size());
   for_each_thing(tools_.team, all.size(), [&](size_t k) {
     const Node& node = state_.forest.nodes[all[k].element];
     LatticePoint point[3];
     lattice_points(node, all[k].which, point);
     for (size_t c = 0; c < 3; ++c) keys[3 * k + c] = key_of_corner(node.surface, point[c]);
   });
-  const std::vector<uint32_t> added = number_.add(keys, static_cast<int32_t>(asked()), tools_.team);
+  const std::vector<uint32_t> added =
+      number_.add({keys.data(), keys.size()}, static_cast<int32_t>(asked()), tools_.team);
   const size_t before = wanted_.size();
-  wanted_.resize(before + added.size());
+  wanted_.resize_for_overwrite(before + added.size());
   for_each_thing(tools_.team, added.size(),
                  [&](size_t k) { wanted_[before + k] = wanted_of(keys[added[k]]); });
 }
@@ -79,7 +81,7 @@ CornerSampler::Wanted CornerSampler::own_of(const PointOfElement& point) const {
 
 void CornerSampler::add(const std::vector<PointOfElement>& points) {
   const size_t before = wanted_.size();
-  wanted_.resize(before + points.size());
+  wanted_.resize_for_overwrite(before + points.size());
   for_each_thing(tools_.team, points.size(),
                  [&](size_t k) { wanted_[before + k] = own_of(points[k]); });
 }
@@ -118,11 +120,13 @@ bool CornerSampler::sample(double work) {
   if (!open_cubes(grid_, count, point, state_, tools_)) return false;
   state_.journal.next_pass();
   const size_t before = value_.size();
-  value_.resize(before + count);
-  links_.resize(before + count);
-  place_.resize(before + count);
+  value_.resize_for_overwrite(before + count);
+  links_.resize_for_overwrite(before + count);
+  place_.resize_for_overwrite(before + count);
   for_each_thing(tools_.team, count, [&](size_t k) {
     const Wanted& wanted = wanted_[k];
+    value_[before + k] = 0;
+    links_[before + k] = {};
     place_[before + k] = {static_cast<float>(wanted.place.x), static_cast<float>(wanted.place.y),
                           static_cast<float>(wanted.place.z), wanted.surface};
   });
@@ -132,7 +136,7 @@ bool CornerSampler::sample(double work) {
         sample_some(before + first, before + std::min(count, first + corners_of_a_step), work);
   if (!tools_.exchange.all_go_on(going_on)) return false;
   work_ += work * static_cast<double>(count);
-  wanted_ = std::vector<Wanted>();
+  wanted_ = GrowingArray<Wanted>();
   count_memory();
   return true;
 }
@@ -199,7 +203,7 @@ void CornerSampler::forget_links(size_t first) {
   // A part that holds links of points before stays.
   for (; !parts_.empty() && parts_.back().first >= first; parts_.pop_back())
     link_count_ -= parts_.back().links.size();
-  std::fill(links_.begin() + static_cast<std::ptrdiff_t>(first), links_.end(), Span<Link>());
+  std::fill(links_.begin() + first, links_.end(), Span<Link>());
   count_memory();
 }
 
@@ -215,8 +219,8 @@ OrientedPoint CornerSampler::point_of(const Wanted& wanted) const {
 }
 
 void CornerSampler::keep_what_is_named() {
-  number_ = CornerNumbers();
-  wanted_ = std::vector<Wanted>();
+  number_ = KeyNumbers();
+  wanted_ = GrowingArray<Wanted>();
   state_.direct.of_leaf.settle(tools_.team);
   const Emitters& emitters = grid_.emitters();
   number_points_by_leaves(

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/growing_array.h"
 #include "hierarchy/lattice.h"
 #include "links/direct_light.h"
-#include "stages/corner_numbers.h"
+#include "machine/key_numbers.h"
+#include "stages/corner_key.h"
 #include "stages/state_memory.h"
 
 namespace hrad {
@@ -90,17 +92,17 @@ class CornerSampler {
   LightGrid& grid_;
   const DirectLight& light_;
   const uint64_t seed_;
-  CornerNumbers number_;
-  std::vector<Wanted> wanted_;
-  size_t sampled_ = 0;        // points that have been
-  std::vector<float> value_;  // per point, as what follows
-  std::vector<Span<Link>> links_;
+  KeyNumbers number_;
+  GrowingArray<Wanted> wanted_;
+  size_t sampled_ = 0;         // points that have been
+  GrowingArray<float> value_;  // per point, as what follows
+  GrowingArray<Span<Link>> links_;
   struct Place {
     float x, y, z;
     int32_t surface;
   };
-  std::vector<Place> place_;  // roughly
-  struct Part {               // of the points from one number on, what their links lie in
+  GrowingArray<Place> place_;  // roughly
+  struct Part {                // of the points from one number on, what their links lie in
     size_t first;
     std::vector<Link> links;
   };

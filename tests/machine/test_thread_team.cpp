@@ -271,7 +271,9 @@ void an_observer_is_told() {
     team.for_each(100, nothing);
     ThreadTeam other(size);
     other.for_each(3, nothing);
+    CHECK(!team.alone());
     team.set_observer(nullptr);
+    CHECK_EQUAL(team.alone(), team.size() == 1);
     team.for_each(7, nothing);
     CHECK((observer.loops == std::vector<int64_t>{100}));
     CHECK_EQUAL(observer.ends, 1);

@@ -1,5 +1,7 @@
-// Corners get the same numbers whatever the threads.
-#include "stages/corner_numbers.h"
+// Keys get the same numbers whatever the threads.
+#include <vector>
+
+#include "machine/key_numbers.h"
 #include "support/check.h"
 
 namespace {
@@ -10,25 +12,14 @@ using namespace hrad_test;
 // Some come several times, and some come again the second time.
 std::vector<uint64_t> keys_of(uint64_t turn, size_t count) {
   std::vector<uint64_t> keys;
-  for (size_t k = 0; k < count; ++k) {
-    const uint64_t hash = mix(turn, k) % (count / 2);
-    keys.push_back(key_of_corner(static_cast<int32_t>(hash % 7),
-                                 {static_cast<int32_t>(hash / 7), lattice_size}));
-  }
+  for (size_t k = 0; k < count; ++k) keys.push_back(mix(mix(turn, k) % (count / 2)));
   return keys;
-}
-
-void a_key_tells_surface_and_point() {
-  const uint64_t key = key_of_corner(2147483647, {lattice_size, 5});
-  CHECK_EQUAL(surface_of_corner(key), 2147483647);
-  CHECK_EQUAL(point_of_corner(key).i, lattice_size);
-  CHECK_EQUAL(point_of_corner(key).j, 5);
 }
 
 void numbers_follow_the_order_of_the_keys() {
   for (size_t count : {size_t{10}, size_t{30000}}) {
     ThreadTeam one(1), four(4);
-    CornerNumbers serial, parallel;
+    KeyNumbers serial, parallel;
     int32_t next = 0;
     for (uint64_t turn = 0; turn < 3; ++turn) {
       const std::vector<uint64_t> keys = keys_of(turn, count);
@@ -41,7 +32,7 @@ void numbers_follow_the_order_of_the_keys() {
       }
     }
     CHECK(parallel.add(keys_of(2, count), next, four).empty());
-    CHECK_EQUAL(serial.find(key_of_corner(8, {0, 0})), NumberTable::none);
+    CHECK_EQUAL(serial.find(mix(count)), NumberTable::none);
     CHECK(parallel.bytes() >= 12 * next);
   }
 }
@@ -50,7 +41,6 @@ void numbers_follow_the_order_of_the_keys() {
 
 int main() {
   const CMUnitTest tests[] = {
-      HRAD_TEST(a_key_tells_surface_and_point),
       HRAD_TEST(numbers_follow_the_order_of_the_keys),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

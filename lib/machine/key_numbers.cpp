@@ -1,7 +1,10 @@
 // Keys are dealt out to tables, and what is new in these is counted in the order of the keys.
-// Floor 7 (stages).
-#include "stages/corner_numbers.h"
+// Floor 2 (machine).
+#include "machine/key_numbers.h"
 
+#include <algorithm>
+
+#include "base/growing_array.h"
 #include "machine/pieces.h"
 
 namespace hrad {
@@ -12,15 +15,15 @@ constexpr size_t keys_of_a_piece = 1024;
 
 }  // namespace
 
-CornerNumbers::CornerNumbers() : tables_(table_count) {}
+KeyNumbers::KeyNumbers() : tables_(table_count) {}
 
-int64_t CornerNumbers::bytes() const {
+int64_t KeyNumbers::bytes() const {
   int64_t sum = 0;
   for (const NumberTable& table : tables_) sum += table.bytes();
   return sum;
 }
 
-std::vector<uint32_t> CornerNumbers::add_in_turn(const std::vector<uint64_t>& keys, int32_t next) {
+std::vector<uint32_t> KeyNumbers::add_in_turn(Span<const uint64_t> keys, int32_t next) {
   std::vector<uint32_t> added;
   for (size_t k = 0; k < keys.size(); ++k) {
     int32_t& number = tables_[table_of(keys[k])].at(keys[k]);
@@ -31,15 +34,20 @@ std::vector<uint32_t> CornerNumbers::add_in_turn(const std::vector<uint64_t>& ke
   return added;
 }
 
-std::vector<uint32_t> CornerNumbers::add(const std::vector<uint64_t>& keys, int32_t next,
-                                         ThreadTeam& team) {
-  if (team.size() == 1 || keys.size() <= keys_of_a_piece) return add_in_turn(keys, next);
+std::vector<uint32_t> KeyNumbers::add(Span<const uint64_t> keys, int32_t next, ThreadTeam& team) {
+  if (team.alone() || keys.size() <= keys_of_a_piece) return add_in_turn(keys, next);
   // Of each table its keys, in order: piece by piece, first counted, then put side by side.
   const size_t pieces = pieces_of(keys.size(), keys_of_a_piece);
-  std::vector<uint32_t> next_of(pieces * table_count, 0), sorted(keys.size());
+  std::vector<uint32_t> next_of(pieces * table_count, 0);
+  // Written to by the team first.
+  GrowingArray<uint32_t> sorted;
+  GrowingArray<int32_t> number_of;
+  sorted.resize_for_overwrite(keys.size());
+  number_of.resize_for_overwrite(keys.size());
   for_each_piece(
       team, keys.size(),
       [&](size_t piece, size_t begin, size_t end) {
+        std::fill(number_of.data() + begin, number_of.data() + end, NumberTable::none);
         for (size_t k = begin; k < end; ++k) ++next_of[piece * table_count + table_of(keys[k])];
       },
       keys_of_a_piece);
@@ -67,7 +75,6 @@ std::vector<uint32_t> CornerNumbers::add(const std::vector<uint64_t>& keys, int3
     int32_t* number;
   };
   std::vector<std::vector<New>> new_of(table_count);
-  std::vector<int32_t> number_of(keys.size(), NumberTable::none);
   team.for_each(static_cast<int64_t>(table_count), [&](int64_t t, int) {
     const size_t table = static_cast<size_t>(t);
     tables_[table].make_room(first[table + 1] - first[table]);
