@@ -54,7 +54,10 @@ fuzz_one() {
   esac
   build-fuzz/tests/"$target" -max_total_time="$2" -timeout=60 -rss_limit_mb=3000 \
     "${dictionary[@]}" -artifact_prefix="build-fuzz/$target-" -print_final_stats=1 \
-    "build-fuzz/corpus/$target" "tests/fuzz/corpus/${target#fuzz_}"
+    "build-fuzz/corpus/$target" "tests/fuzz/corpus/${target#fuzz_}" || {
+    echo "$target has found something." >&2
+    return 1
+  }
 }
 export -f fuzz_one
 

@@ -66,8 +66,9 @@ class LightGrid {
  private:
   struct Cube {
     std::vector<Candidate> candidates;
-    std::vector<int32_t> points;  // of those that opened it
-    int32_t around = -1;          // the cube of the coarser grid that it lies in
+    // Of those that opened it, where a process traces rays for it or for the cube around it.
+    std::vector<int32_t> points;
+    int32_t around = -1;  // the cube of the coarser grid that it lies in
   };
   struct Grid {
     double size;

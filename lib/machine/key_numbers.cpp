@@ -69,22 +69,18 @@ std::vector<uint32_t> KeyNumbers::add(Span<const uint64_t> keys, int32_t next, T
           sorted[next_of[piece * table_count + table_of(keys[k])]++] = static_cast<uint32_t>(k);
       },
       keys_of_a_piece);
-  // New ones stand in the tables without a number until all are known.
-  struct New {
-    uint32_t key;
-    int32_t* number;
-  };
-  std::vector<std::vector<New>> new_of(table_count);
+  // New ones stand in the tables without a number until all are known. Tables grow with them alone,
+  // as they do where keys come in turn.
+  std::vector<std::vector<uint32_t>> new_of(table_count);
   team.for_each(static_cast<int64_t>(table_count), [&](int64_t t, int) {
     const size_t table = static_cast<size_t>(t);
-    tables_[table].make_room(first[table + 1] - first[table]);
     for (uint32_t at = first[table]; at < first[table + 1]; ++at) {
       const uint32_t k = sorted[at];
       const size_t before = tables_[table].size();
-      int32_t& number = tables_[table].at(keys[k]);
+      tables_[table].at(keys[k]);
       if (tables_[table].size() == before) continue;
       number_of[k] = 0;
-      new_of[table].push_back({k, &number});
+      new_of[table].push_back(k);
     }
   });
   const std::vector<uint32_t> added =
@@ -93,8 +89,9 @@ std::vector<uint32_t> KeyNumbers::add(Span<const uint64_t> keys, int32_t next, T
       });
   for_each_thing(team, added.size(),
                  [&](size_t k) { number_of[added[k]] = next + static_cast<int32_t>(k); });
-  team.for_each(static_cast<int64_t>(table_count), [&](int64_t table, int) {
-    for (const New& made : new_of[static_cast<size_t>(table)]) *made.number = number_of[made.key];
+  team.for_each(static_cast<int64_t>(table_count), [&](int64_t t, int) {
+    const size_t table = static_cast<size_t>(t);
+    for (uint32_t k : new_of[table]) tables_[table].at(keys[k]) = number_of[k];
   });
   return added;
 }

@@ -189,8 +189,6 @@ bool Solver::Run::sweep(int round) {
   });
   if (!solution_.sweeping) begin_sweeps(round);
   const OwnRuns runs(state_, exchange_, *solution_.team);
-  StageMemory memory(state_);
-  memory.take(runs.bytes(), "which links wait for messages");
   bool going_on = true;
   solution_.converged = false;
   while (going_on && !solution_.converged && !out_of_sweeps()) {

@@ -152,6 +152,7 @@ void Exchange::ask_for_sources(State& state, ThreadTeam& team) {
   const std::vector<Bytes> from = comm_.exchange(std::move(to));
   const auto places_of = [&](const std::vector<NodeId>& elements) {
     PlaceList places;
+    places.reserve(elements.size());
     for (NodeId id : elements) places.push_back(static_cast<uint32_t>(state.places[id]));
     return places;
   };
@@ -194,14 +195,17 @@ void Exchange::count_totals(int64_t bytes) {
   counts_.bytes[totals] += bytes * (comm_.size() - 1);
 }
 
-void Exchange::add_up(std::vector<ExactSum>& sums) {
+void Exchange::add_up(std::vector<ExactSum>& sums) const {
   if (alone()) return;
   std::vector<ExactSum::Digits> digits;
   for (const ExactSum& sum : sums) digits.push_back(sum.digits());
-  const size_t numbers = digits.size() * digits.front().size();
-  count_totals(static_cast<int64_t>(numbers * sizeof(uint64_t)));
-  comm_.add_up({digits.front().data(), numbers});
+  comm_.add_up({digits.front().data(), digits.size() * digits.front().size()});
   for (size_t k = 0; k < sums.size(); ++k) sums[k] = ExactSum(digits[k]);
+}
+
+void Exchange::add_up_transported(std::vector<ExactSum>& sums) {
+  add_up(sums);
+  if (!alone()) count_totals(static_cast<int64_t>(sums.size() * sizeof(ExactSum::Digits)));
 }
 
 namespace {

@@ -113,8 +113,10 @@ class Exchange {
   void start_update(const State& state, ThreadTeam& team);
   void finish_update(State& state, ThreadTeam& team);
   void make_progress() const;
-  // What all processes have added up, a sum for each band (T).
-  void add_up(std::vector<ExactSum>& sums);
+  // What all processes have added up.
+  void add_up(std::vector<ExactSum>& sums) const;
+  // The same of the radiosity transported, a sum for each band (T).
+  void add_up_transported(std::vector<ExactSum>& sums);
   // Light on the roots, or on those that clusters are made of, known to all (T).
   void share_roots(State& state, ThreadTeam& team);
   void share_roots_of_clusters(State& state, ThreadTeam& team);

@@ -18,7 +18,7 @@ void gather_direct(const State& state, NodeId leaf, float* irradiance);
 
 // state.irradiance = links x state.radiosity, and at leaves the mean of their direct light, for
 // push_pull() to spread: in double precision and in the order of each run. Of a process that is
-// alone, or while OwnRuns has the links.
+// alone.
 void gather(State& state, ThreadTeam& team);
 // The same of a process's own runs, in two steps: of those that need no message, helping those
 // under way along, and then of those that wait for them.

@@ -1,7 +1,6 @@
 // Whose receivers, and whose sources. Floor 7 (stages).
 #include "stages/own_runs.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -53,6 +52,13 @@ OwnRuns::OwnRuns(State& state, const Exchange& exchange, ThreadTeam& team) {
       blocks_.emplace_back();
       blocks_.back().number = static_cast<uint32_t>(block);
     }
+  const auto runs_of = [&](const Block& block) {
+    return runs_in(state.links, block.number) + runs_in(state.direct.mean, block.number);
+  };
+  size_t bytes = blocks_.size() * sizeof(Block) + state.places.count() * sizeof(NodeId);
+  for (const Block& block : blocks_) bytes += runs_of(block) * sizeof(GatherRun);
+  memory_.emplace(state);
+  memory_->take(static_cast<int64_t>(bytes), "lists of the links that a sweep goes over");
   node_at_.resize(state.places.count());
   state.places.for_each_stretch(0, state.places.nodes(),
                                 [&](size_t node, size_t place, size_t count) {
@@ -61,10 +67,9 @@ OwnRuns::OwnRuns(State& state, const Exchange& exchange, ThreadTeam& team) {
                                 });
   team.for_each(static_cast<int64_t>(blocks_.size()), [&](int64_t k, int) {
     Block& block = blocks_[static_cast<size_t>(k)];
-    block.runs.resize(runs_in(state.links, block.number) +
-                      runs_in(state.direct.mean, block.number));
+    block.runs.resize(runs_of(block));
   });
-  // Nothing fails from here on: either all sources are places, or none is.
+  // Nothing fails from here on: either all sources of own runs are places, or none is.
   team.for_each(static_cast<int64_t>(blocks_.size()), [&](int64_t k, int) {
     Block& block = blocks_[static_cast<size_t>(k)];
     size_t kind = 0;
@@ -73,14 +78,14 @@ OwnRuns::OwnRuns(State& state, const Exchange& exchange, ThreadTeam& team) {
       const size_t count = runs_in(*table, block.number);
       size_t here = 0;
       if (count > 0) put_runs(state.places, table->block(block.number), block.number, runs);
-      for (size_t k = 0; k < count; ++k) {
+      for (size_t run = 0; run < count; ++run) {
         bool waits = false;
-        for (uint32_t at = runs[k].first; at < runs[k].end; ++at) {
+        for (uint32_t at = runs[run].first; at < runs[run].end; ++at) {
           NodeId& source = table->links_of_block(block.number)[at].source;
           waits = waits || exchange.comes_by_message(source);
           source = static_cast<NodeId>(state.places[source]);
         }
-        if (!waits) std::swap(runs[here++], runs[k]);
+        if (!waits) std::swap(runs[here++], runs[run]);
       }
       block.first[kind + 1] = block.first[kind] + static_cast<uint32_t>(here);
       block.first[kind + 2] = block.first[kind] + static_cast<uint32_t>(count);
@@ -99,12 +104,6 @@ OwnRuns::~OwnRuns() {
         link.source = node_at_[static_cast<size_t>(link.source)];
     }
   });
-}
-
-int64_t OwnRuns::bytes() const {
-  int64_t bytes = bytes_in(blocks_) + bytes_in(node_at_);
-  for (const Block& block : blocks_) bytes += bytes_in(block.runs);
-  return bytes;
 }
 
 }  // namespace hrad

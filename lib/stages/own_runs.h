@@ -5,10 +5,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "stages/exchange.h"
 #include "stages/state.h"
+#include "stages/state_memory.h"
 #include "stages/sweep_kernels.h"
 
 namespace hrad {
@@ -38,7 +40,8 @@ class OwnRuns {
 
   // All of them, and none that waits: of a process that is alone.
   OwnRuns() = default;
-  // As it stands once it has asked for its sources. state and team must outlive this.
+  // As it stands once it has asked for its sources; counted against the limit of memory. state and
+  // team must outlive this.
   OwnRuns(State& state, const Exchange& exchange, ThreadTeam& team);
   ~OwnRuns();
   OwnRuns(const OwnRuns&) = delete;
@@ -46,7 +49,6 @@ class OwnRuns {
 
   bool all() const { return all_; }
   const std::vector<Block>& blocks() const { return blocks_; }
-  int64_t bytes() const;
 
  private:
   bool all_ = true;
@@ -54,6 +56,7 @@ class OwnRuns {
   State* state_ = nullptr;
   ThreadTeam* team_ = nullptr;
   std::vector<NodeId> node_at_;  // per place
+  std::optional<StageMemory> memory_;
 };
 
 }  // namespace hrad

@@ -76,7 +76,7 @@ std::vector<double> push_pull_all(State& state, ThreadTeam& team, Exchange& exch
   std::vector<ExactSum>& sums = of_thread.front();
   for (size_t thread = 1; thread < of_thread.size(); ++thread)
     for (size_t b = 0; b < bands; ++b) sums[b].add(of_thread[thread][b]);
-  exchange.add_up(sums);
+  exchange.add_up_transported(sums);
   std::vector<double> transported;
   for (const ExactSum& sum : sums) transported.push_back(sum.value());
   return transported;

@@ -178,7 +178,7 @@ void every_allocation_may_fail() {
     for (int i = 0; i < Program::steps; ++i)
       failures += fail_every_allocation(program, i,
                                         i == 15 || i == 16         ? 101
-                                        : i >= Program::solve_step ? hrad_test::every(3)
+                                        : i >= Program::solve_step ? hrad_test::every(5)
                                                                    : 1);
     CHECK(failures > 500);  // otherwise nothing was tested
     CHECK(program.hash() == hash);
@@ -203,7 +203,8 @@ void every_allocation_of_a_solve_may_fail(const char* linking) {
   {
     Program program(folder, linking);
     program.begin(solve);
-    const int64_t failures = fail_every_allocation(program, solve, 211 * hrad_test::every(3));
+    const int64_t failures =
+        fail_every_allocation(program, solve, hrad_test::thorough() ? 211 : 631);
     CHECK(failures > 50);
     uint64_t hash = 0, undisturbed = 0;
     CHECK_EQUAL(hrad_state_hash(program.solver(), &hash), HRAD_OK);

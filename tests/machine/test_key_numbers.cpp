@@ -34,6 +34,7 @@ void numbers_follow_the_order_of_the_keys() {
     CHECK(parallel.add(keys_of(2, count), next, four).empty());
     CHECK_EQUAL(serial.find(mix(count)), NumberTable::none);
     CHECK(parallel.bytes() >= 12 * next);
+    CHECK_EQUAL(parallel.bytes(), serial.bytes());
   }
 }
 

@@ -154,7 +154,7 @@ void totals_are_exact() {
     std::vector<ExactSum> totals(2);
     totals[0].add(values[rank]);
     totals[1].add(0.5);
-    exchange.add_up(totals);
+    exchange.add_up_transported(totals);
     for (size_t b = 0; b < 2; ++b) sums[2 * rank + b] = totals[b].value();
     counts[rank] = exchange.counts();
   });

@@ -1,5 +1,5 @@
-// How much a test tries where there is more than anybody waits for: the long run (tests/run.sh
-// --full) everything, any other a fair sample of it.
+// How much a test tries where there is more than anybody waits for: with HRAD_TEST_THOROUGH in the
+// environment, as in the long run (tests/run.sh --full), everything, otherwise a fair sample of it.
 #pragma once
 
 #include <cstdint>
