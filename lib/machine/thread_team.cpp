@@ -225,12 +225,13 @@ bool ThreadTeam::run(int64_t count, const std::function<void(int64_t task, int w
   if (state_->busy.exchange(true))
     fail(Status::internal, "a loop was started on a thread team that is running one");
   Loop loop(count, body);
-  bool go_on = true, reported = false;
+  bool go_on = true;
+  int64_t reported = -1;  // of finished tasks
   const auto report = [&] {
     if (!between || !go_on) return;
-    reported = true;
+    reported = loop.finished();
     try {
-      go_on = between(loop.finished());
+      go_on = between(reported);
     } catch (...) {
       loop.record_between(std::current_exception());
       go_on = false;
@@ -242,7 +243,8 @@ bool ThreadTeam::run(int64_t count, const std::function<void(int64_t task, int w
   if (shared) state_->open(&loop);
   while (loop.run_one(0)) report();
   if (shared) state_->close(report);
-  if (count > 0 && !reported) report();  // the others may have been quicker with all tasks
+  // Others may have finished the last ones: all are told of, as one thread tells.
+  if (count > 0 && reported < loop.finished()) report();
   state_->busy.store(false);
   loop.rethrow();
   return go_on;

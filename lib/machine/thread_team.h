@@ -27,11 +27,10 @@ class ThreadTeam {
 
   // Runs body(task, worker) for every task 0 <= task < count, in ascending order of being taken,
   // each by one worker 0 <= worker < size(); returns when all are done. between(done) is called now
-  // and then (at least once, when there are tasks) on the calling thread with the number of
-  // finished tasks; when it returns false, no further task is started and for_each returns false
-  // (tasks under way are finished). When bodies throw, no further task is started and the exception
-  // of the lowest task that throws is thrown here, the same one on any number of threads. Not
-  // reentrant.
+  // and then on the calling thread with the number of finished tasks, at last with that of all;
+  // when it returns false, no further task is started and for_each returns false (tasks under way
+  // are finished). When bodies throw, no further task is started and the exception of the lowest
+  // task that throws is thrown here, the same one on any number of threads. Not reentrant.
   bool for_each(int64_t count, const std::function<void(int64_t task, int worker)>& body,
                 const std::function<bool(int64_t done)>& between = {});
 
